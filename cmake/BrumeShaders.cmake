@@ -1,0 +1,36 @@
+# Compiles GLSL at build time and embeds the SPIR-V, so that the library opens no shader file.
+
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_OPT spirv-opt REQUIRED)
+
+# brume_shaders(brume_oit oit/linked_list/resolve.comp ...): paths below shaders/. Each file
+# becomes the header <spv/oit/linked_list/resolve.comp.hpp>, which defines
+# brume::spv::oit_linked_list_resolve_comp (constexpr uint32_t[]).
+function(brume_shaders target)
+  set(headers)
+  foreach(shader IN LISTS ARGN)
+    set(source ${PROJECT_SOURCE_DIR}/shaders/${shader})
+    set(spirv ${CMAKE_BINARY_DIR}/spirv/${shader}.spv)
+    set(header ${CMAKE_BINARY_DIR}/generated/spv/${shader}.hpp)
+    string(REGEX REPLACE "[/.]" "_" symbol ${shader})
+    cmake_path(GET spirv PARENT_PATH spirv_folder)
+    file(MAKE_DIRECTORY ${spirv_folder})
+    add_custom_command(
+      OUTPUT ${header}
+      COMMAND ${GLSLANG_VALIDATOR} -V --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders
+              --depfile ${spirv}.d -o ${spirv}.raw ${source}
+      COMMAND ${SPIRV_OPT} -O ${spirv}.raw -o ${spirv}
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${spirv} -DOUTPUT=${header} -DSYMBOL=${symbol}
+              -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+      # glslang names its own output in the dep-file; CMake wants the rule's.
+      COMMAND sed -i "s#^[^:]*:#${header}:#" ${spirv}.d
+      MAIN_DEPENDENCY ${source}
+      DEPENDS ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+      DEPFILE ${spirv}.d
+      COMMENT "Compiling shader ${shader}"
+      VERBATIM)
+    list(APPEND headers ${header})
+  endforeach()
+  target_sources(${target} PRIVATE ${headers})
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()

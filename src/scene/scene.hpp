@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as plain structs: what the files of DESIGN say, with every default filled in and
+// every path made absolute. No Vulkan, no rendering. Lengths in metres, angles in radians,
+// extinction in 1/m, linear radiance.
+#pragma once
+
+#include <core/math.hpp>
+#include <scene/effect.hpp>
+#include <scene/settings.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace brume::scene {
+
+enum class CameraType { Perspective, Orthographic };
+
+struct Camera {
+    CameraType type = CameraType::Perspective;
+    dvec3 position{0, 0, 5};
+    dvec3 target{0};
+    dvec3 up{0, 1, 0};
+    double verticalFov = radians(40);  ///< perspective: full angle, (0, pi)
+    double height = 1;                 ///< orthographic: world height of the image
+    double near = 0.01;  ///< surfaces nearer than this view depth are not seen; media start at the camera
+};
+
+struct ImageSettings {
+    int width = 960;
+    int height = 540;
+    int supersample = 1;  ///< n: each pixel is the mean of n x n samples at sub-pixel centres
+};
+
+/// Linear RGBA texels from the top left; wraps around in both directions; bilinear between texel centres.
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<vec4> texels;  ///< colour linear, alpha as stored
+};
+
+struct Background {
+    dvec3 radiance{0};
+    /// Latitude-longitude map, +Y up: u = atan2(x, -z) / 2pi + 1/2, v = acos(y) / pi. Null: constant `radiance`.
+    std::shared_ptr<const Texture> environment;
+    double scale = 1;  ///< of the environment
+};
+
+enum class LightType { Ambient, Directional, Point, Spot };
+
+/// `color` is radiance (ambient), irradiance (directional) or intensity (point, spot).
+/// Point and spot: E = I / max(d^2, radius^2). Spot: times s^2, s = clamp((cos - cosOuter) / (cosInner - cosOuter), 0, 1).
+struct Light {
+    LightType type = LightType::Ambient;
+    dvec3 color{0};
+    dvec3 position{0};
+    dvec3 direction{0, -1, 0};  ///< in which the light travels, unit length
+    double innerAngle = radians(20);  ///< from the axis
+    double outerAngle = radians(30);
+    double radius = 0.01;
+    std::string shadow = "none";  ///< name of a shadow store, or "none"
+};
+
+enum class MaterialType { Opaque, Thin, Solid };
+
+struct Material {
+    std::string name;
+    MaterialType type = MaterialType::Opaque;
+    // Opaque; emission also of thin surfaces.
+    dvec3 albedo{0.5};
+    dvec3 emission{0};
+    // Thin.
+    double coverage = 1;
+    dvec3 transmission{0};
+    dvec3 reflected{0};  ///< Lambert albedo of the light that a thin surface sends back on both sides
+    double collimation = 1;
+    // Thin and solid.
+    double ior = 1.5;
+    double roughness = 0;
+    // Solid: homogeneous medium inside a closed mesh.
+    dvec3 absorption{0};
+    dvec3 scattering{0};
+    // Textures multiply: colour -> albedo (opaque), reflected and transmission (thin); its alpha -> coverage (thin).
+    std::shared_ptr<const Texture> colorTexture;
+    std::shared_ptr<const Texture> emissionTexture;
+    double alphaCutoff = -1;  ///< >= 0: fragments whose coverage * texture alpha is below do not exist (glTF MASK)
+};
+
+enum class PhaseType { Isotropic, Rayleigh, HenyeyGreenstein };
+
+/// Optical properties per unit density. Scattering = extinction * albedo.
+struct Medium {
+    std::string name;
+    dvec3 extinction{1};
+    dvec3 albedo{0};
+    dvec3 emission{0};  ///< radiance per metre
+    PhaseType phase = PhaseType::Isotropic;
+    double g = 0;  ///< Henyey-Greenstein mean cosine, |g| <= 0.999
+};
+
+/// Triangles with one material. Winding: counter-clockwise seen from outside.
+struct Mesh {
+    std::string name;
+    std::vector<vec3> positions;  ///< object space
+    std::vector<vec3> normals;    ///< unit, one per position
+    std::vector<vec2> uvs;        ///< one per position (zero where the file has none); v grows downwards
+    std::vector<std::uint32_t> indices;  ///< three per triangle
+    std::uint32_t material = 0;          ///< index into Scene::materials
+    dmat4 worldFromObject{1};
+};
+
+enum class VolumeRepresentation { Bricks, Boxes, Particles };
+
+struct Volume {
+    std::filesystem::path file;
+    std::string density = "density";  ///< name of the grid
+    int gridIndex = -1;               ///< among the grids of that name; -1: the only one (several: an error that lists them)
+    std::uint32_t medium = 0;
+    VolumeRepresentation representation = VolumeRepresentation::Bricks;
+    double tolerance = 0.03;  ///< boxes: largest (max - min) * extinction * size of a box
+    dmat4 worldFromFile{1};   ///< applied after the grid's own transform
+};
+
+enum class Profile { Constant, Smooth };  ///< Smooth: density * (1 - r^2/R^2)^2
+
+struct Sphere {
+    dvec3 center{0};
+    double radius = 1;
+    std::uint32_t medium = 0;
+    double density = 1;
+    Profile profile = Profile::Constant;
+};
+
+struct EffectInstance {
+    std::filesystem::path file;
+    Effect effect;  ///< its medium name resolved to `medium`
+    std::uint32_t medium = 0;
+    dmat4 worldFromEffect{1};
+    std::uint64_t seed = 0;
+    double time = 0;  ///< seconds simulated before the frame
+};
+
+struct RenderSettings {
+    std::string method = "linked_list";
+    Settings settings;
+};
+
+struct Scene {
+    std::filesystem::path file;  ///< empty if made by code
+    Camera camera;
+    ImageSettings image;
+    Background background;
+    std::vector<Light> lights;
+    std::vector<Material> materials;
+    std::vector<Medium> media;
+    std::vector<Mesh> meshes;
+    std::vector<Volume> volumes;
+    std::vector<Sphere> spheres;
+    std::vector<EffectInstance> effects;
+    RenderSettings render;
+};
+
+}  // namespace brume::scene
