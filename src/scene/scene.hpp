@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as plain structs: what the files of DESIGN say, with every default filled in and
+// The scene as plain structs: what the files of docs/formats.md say, with every default filled in and
 // every path made absolute. No Vulkan, no rendering. Lengths in metres, angles in radians,
 // extinction in 1/m, linear radiance.
 #pragma once

@@ -30,7 +30,7 @@ struct GridInfo {
 /// Lists the grids in file order. Throws an input Error if the file is not readable.
 std::vector<GridInfo> listGrids(const std::filesystem::path& file);
 
-/// Loads the density that `volume` names, sanitised (SCIENCE section 6), with worldFromFile applied.
+/// Loads the density that `volume` names, sanitised (docs/formats.md), with worldFromFile applied.
 /// Representation Boxes: decomposed with `volume.tolerance` relative to `extinctionMax` (largest channel, 1/m per unit density).
 /// Warns once per file and fault through `log`. Throws an input Error (unreadable, no such grid, several of that name, refused type).
 VolumeGrid loadVolume(const scene::Volume& volume, double extinctionMax, const Log& log);
