@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a scene to an image on the GPU: finds out what the scene needs, chooses and specialises the
+// techniques for just that, and composes a frame from them.
+#pragma once
+
+#include <core/image.hpp>
+#include <core/log.hpp>
+#include <scene/medium_sphere.hpp>
+#include <scene/scene.hpp>
+#include <scene/settings.hpp>
+#include <volumes/volume_grid.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace brume::gpu {
+class Device;
+}
+
+namespace brume::render {
+
+/// A scene with its files loaded: what both the GPU renderer and the reference see.
+struct PreparedScene {
+    scene::Scene scene;
+    std::vector<volumes::VolumeGrid> volumes;  ///< parallel to scene.volumes
+    std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to particles; effects are simulated by the renderer
+};
+
+struct Options {
+    std::string method = "linked_list";
+    std::string shadow;  ///< overrides the lights' own; empty: as in the scene
+    scene::Settings settings;
+    bool triangleHashes = false;  ///< also return which triangles each pixel saw
+};
+
+struct PassTime {
+    std::string name;  ///< e.g. "oit.linked_list.resolve"
+    double timeMs = 0;
+};
+
+struct Result {
+    Image image;  ///< scene.image.width x height
+    std::vector<std::uint32_t> triangles;  ///< as reference::Result::triangles; empty unless asked for
+    double timeMs = 0;                     ///< first to last command of the frame, on the device
+    std::vector<PassTime> passes;
+    std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
+    std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
+};
+
+/// One scene on one device. Not thread-safe. Owns all its GPU objects; the device must outlive it.
+/// As the first host of the library it submits and waits itself.
+class Renderer {
+  public:
+    /// Uploads the scene and simulates its effects to their time. Throws an Error (input: unknown method, bad setting;
+    /// failure: device).
+    Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options, const Log& log);
+    ~Renderer();
+
+    /// Renders one frame and reads it back. May be called again (benchmarks): same image, new times.
+    Result renderFrame();
+
+    /// Particles as simulated on the device, read back: for the reference.
+    std::vector<scene::MediumSphere> readParticles() const;
+
+    /// Needs, passes, targets and bytes per pixel, as text for --explain.
+    std::string explain() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> mImpl;
+};
+
+}  // namespace brume::render
