@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a ray enters and leaves a medium, in the forms that keep their digits in fp32.
+#ifndef BRUME_COMMON_INTERSECT_GLSL
+#define BRUME_COMMON_INTERSECT_GLSL
+
+// False where the ray misses; tangent within rounding is a miss. Perpendicular form: the textbook
+// b^2 - c loses most hits of a small sphere far away.
+bool intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
+    vec3 offset = center - origin;
+    float middle = dot(offset, direction);
+    vec3 perpendicular = offset - middle * direction;
+    float h2 = radius * radius - dot(perpendicular, perpendicular);
+    float h = sqrt(max(h2, 0.0));
+    t = vec2(max(middle - h, 0.0), middle + h);
+    return h2 > 0.0 && t.y > t.x;
+}
+
+// `origin` and `direction` in the box's local coordinates, box [0, size]. A ray in a face's plane
+// misses (half-open cells); no 0 * inf.
+bool intersectBox(vec3 origin, vec3 direction, vec3 size, out vec2 t) {
+    t = vec2(0.0, 3.0e38);
+    bool hit = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        float o = origin[axis], d = direction[axis], s = size[axis];
+        if (abs(d) < 1e-30) {
+            hit = hit && o >= 0.0 && o < s;
+        } else {
+            float inverse = 1.0 / d;
+            float a = -o * inverse, b = (s - o) * inverse;
+            t.x = max(t.x, min(a, b));
+            t.y = min(t.y, max(a, b));
+        }
+    }
+    return hit && t.y > t.x;
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much light arrives at a point, and what a medium scatters of it towards the eye.
+#ifndef BRUME_COMMON_LIGHTING_GLSL
+#define BRUME_COMMON_LIGHTING_GLSL
+#include "bindings.glsl"
+#include "phase.glsl"
+#include "../shadows/none/transmittance.glsl"
+
+// Irradiance on a plane facing light `index` at `position`, shadowed; `travel`: direction of the light there.
+vec3 lightIrradiance(uint index, vec3 position, out vec3 travel) {
+    LightData light = lights[index];
+    if (light.type == kLightDirectional) {
+        travel = light.direction;
+        return light.color * transmittance(index, position);
+    }
+    vec3 offset = position - light.position;
+    float distance2 = dot(offset, offset);
+    travel = distance2 > 0.0 ? offset * inversesqrt(distance2) : light.direction;
+    float falloff = 1.0;
+    if (light.type == kLightSpot) {
+        float s = clamp((dot(travel, light.direction) - light.cosOuter) /
+                            max(light.cosInner - light.cosOuter, 1e-6), 0.0, 1.0);
+        falloff = s * s;
+    }
+    return light.color * (falloff / max(distance2, light.radius * light.radius)) *
+           transmittance(index, position);
+}
+
+// Radiance that a medium with albedo 1 scatters into `-rayDirection` per unit of optical depth.
+vec3 scatteredRadiance(MediumData medium, vec3 position, vec3 rayDirection) {
+    vec3 sum = frame.ambient;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec3 travel;
+        vec3 irradiance = lightIrradiance(i, position, travel);
+        sum += irradiance * phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
+    }
+    return sum;
+}
+
+// Lambert reflection with albedo 1; `normal` unit, towards the viewer.
+vec3 diffuseRadiance(vec3 position, vec3 normal) {
+    vec3 sum = frame.ambient;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec3 travel;
+        vec3 irradiance = lightIrradiance(i, position, travel);
+        sum += irradiance * (max(-dot(travel, normal), 0.0) * 0.3183098861837907);
+    }
+    return sum;
+}
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A soft sphere on the GPU; C++ and GLSL.
+#ifndef BRUME_SHADERS_COMMON_SPHERE_H
+#define BRUME_SHADERS_COMMON_SPHERE_H
+#include "shared.h"
+
+BRUME_STRUCTS_BEGIN
+
+struct SphereData {
+    vec3 center;    // m, relative to the camera
+    float radius;   // m; <= 0: nothing there
+    vec3 tint;      // multiplies albedo and emission
+    float density;  // multiplies extinction, scattering and emission
+    uint medium;    // index into the media
+    uint id;        // unique, stable when the order changes
+    uint profile;   // kProfileConstant or kProfileSmooth
+};
+
+BRUME_CONST uint kProfileConstant = 0u;
+BRUME_CONST uint kProfileSmooth = 1u;  // density (1 - r^2/R^2)^2
+
+BRUME_STRUCTS_END
+
+#ifdef __cplusplus
+static_assert(sizeof(brume::shader::SphereData) == 44);
+static_assert(offsetof(brume::shader::SphereData, tint) == 16);
+#endif
+#endif
