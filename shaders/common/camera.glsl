@@ -10,10 +10,10 @@ struct Ray {
 
 // `position`: pixels from the top-left corner; centres at + 0.5.
 Ray makeRay(vec2 position) {
-    vec2 s = vec2(2.0 * position.x / float(frame.size.x) - 1.0,
+    precise vec2 s = vec2(2.0 * position.x / float(frame.size.x) - 1.0,
                   1.0 - 2.0 * position.y / float(frame.size.y)) *
              vec2(frame.extentX, frame.extentY);
-    vec3 offset = s.x * frame.right + s.y * frame.up;
+    precise vec3 offset = s.x * frame.right + s.y * frame.up;
     Ray ray;
     ray.origin = frame.orthographic != 0u ? offset : vec3(0);
     ray.direction = frame.orthographic != 0u ? frame.forward : normalize(frame.forward + offset);

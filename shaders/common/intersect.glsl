@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray enters and leaves a medium, in the forms that keep their digits in fp32.
+// Where a ray enters and leaves a medium, in the forms that keep their digits in fp32. `precise`:
+// a pass that counts and a pass that stores must decide alike.
 #ifndef BRUME_COMMON_INTERSECT_GLSL
 #define BRUME_COMMON_INTERSECT_GLSL
 
 // False where the ray misses; tangent within rounding is a miss. Perpendicular form: the textbook
 // b^2 - c loses most hits of a small sphere far away.
 bool intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
-    vec3 offset = center - origin;
-    float middle = dot(offset, direction);
-    vec3 perpendicular = offset - middle * direction;
-    float h2 = radius * radius - dot(perpendicular, perpendicular);
-    float h = sqrt(max(h2, 0.0));
-    t = vec2(max(middle - h, 0.0), middle + h);
-    return h2 > 0.0 && t.y > t.x;
+    precise vec3 offset = center - origin;
+    precise float middle = dot(offset, direction);
+    precise vec3 perpendicular = offset - middle * direction;
+    precise float h2 = radius * radius - dot(perpendicular, perpendicular);
+    precise float h = sqrt(max(h2, 0.0));
+    precise float enter = max(middle - h, 0.0), leave = middle + h;
+    t = vec2(enter, leave);
+    return h2 > 0.0 && leave > enter;
 }
 
 // `origin` and `direction` in the box's local coordinates, box [0, size]. A ray in a face's plane
@@ -25,8 +27,7 @@ bool intersectBox(vec3 origin, vec3 direction, vec3 size, out vec2 t) {
         if (abs(d) < 1e-30) {
             hit = hit && o >= 0.0 && o < s;
         } else {
-            float inverse = 1.0 / d;
-            float a = -o * inverse, b = (s - o) * inverse;
+            precise float a = -o / d, b = (s - o) / d;
             t.x = max(t.x, min(a, b));
             t.y = min(t.y, max(a, b));
         }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangle meshes and their materials on the GPU; C++ and GLSL.
+#ifndef BRUME_SHADERS_COMMON_MESH_H
+#define BRUME_SHADERS_COMMON_MESH_H
+#include "shared.h"
+
+BRUME_STRUCTS_BEGIN
+
+struct VertexData {
+    vec3 position;  // object space
+    vec3 normal;    // unit
+    vec2 uv;
+};
+
+struct MeshData {
+    mat4x3 relativeFromObject;  // to metres relative to the camera
+    mat3 normalFromObject;
+    float orientation;  // -1 if the transform mirrors
+    uint firstVertex;
+    uint firstIndex;
+    uint material;
+};
+
+BRUME_CONST uint kMaterialOpaque = 0u;
+BRUME_CONST uint kMaterialThin = 1u;
+BRUME_CONST uint kMaterialSolid = 2u;
+
+struct MaterialData {
+    vec3 albedo;  // opaque
+    uint type;
+    vec3 emission;
+    float coverage;  // thin
+    vec3 transmission;
+    float alphaCutoff;  // fragments with less alpha do not exist; < 0: all do
+    vec3 reflected;     // thin
+    vec3 extinction;    // solid, 1/m
+    vec3 scattering;    // solid, 1/m
+};
+
+// Own bindings of every pass that draws meshes.
+BRUME_CONST uint kBindingVertices = 8u;
+BRUME_CONST uint kBindingIndices = 9u;
+BRUME_CONST uint kBindingMeshes = 10u;
+BRUME_CONST uint kBindingMaterials = 11u;
+BRUME_CONST uint kBindingColorTexture = 12u;
+BRUME_CONST uint kBindingEmissionTexture = 13u;
+BRUME_CONST uint kBindingTriangles = 14u;  // uint[pixels]: sums of triangleHash()
+
+struct MeshPush {
+    uint meshIndex;
+};
+
+BRUME_STRUCTS_END
+
+#ifdef __cplusplus
+static_assert(sizeof(brume::shader::VertexData) == 32);
+static_assert(sizeof(brume::shader::MeshData) == 100);
+static_assert(offsetof(brume::shader::MeshData, orientation) == 84);
+static_assert(sizeof(brume::shader::MaterialData) == 84);
+#endif
+#endif

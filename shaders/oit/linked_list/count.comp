@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the medium intervals of each pixel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "media.glsl"
+
+void main() {
+    uint tile, firstPixel;
+    if (!beginColumn(tile, firstPixel)) return;
+    uint counts[kRows];
+    for (uint row = 0u; row < kRows; ++row) counts[row] = 0u;
+    vec2 t;
+    if (kSpheres) {
+        uint last = UintArray(push.sphereOffsets).at[tile + 1u];
+        for (uint k = UintArray(push.sphereOffsets).at[tile]; k < last; ++k) {
+            SphereData sphere = spheres[UintArray(push.spherePairs).at[k]];
+            for (uint row = 0u; row < kRows; ++row) counts[row] += hitsSphere(sphere, row, t) ? 1u : 0u;
+        }
+    }
+    if (kBoxes) {
+        uint last = UintArray(push.boxOffsets).at[tile + 1u];
+        for (uint k = UintArray(push.boxOffsets).at[tile]; k < last; ++k) {
+            BoxData box = boxes[UintArray(push.boxPairs).at[k]];
+            VolumeData volume = volumes[box.volume];
+            for (uint row = 0u; row < kRows; ++row) counts[row] += hitsBox(box, volume, row, t) ? 1u : 0u;
+        }
+    }
+    for (uint row = 0u; row < kRows; ++row)
+        UintArray(push.offsets).at[firstPixel + row * kTileSize] = counts[row];
+}

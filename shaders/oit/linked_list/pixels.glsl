@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of pixels in the lists, and the arrays behind the push constants.
+#ifndef BRUME_OIT_LINKED_LIST_PIXELS_GLSL
+#define BRUME_OIT_LINKED_LIST_PIXELS_GLSL
+#include "../../gpu/address.glsl"
+#include "lists.h"
+
+layout(push_constant, scalar) uniform Push { ListPush push; };
+layout(buffer_reference, scalar) buffer RecordArray { SurfaceRecord at[]; };
+layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
+
+uint pixelIndex(uvec2 pixel) {
+    uvec2 tile = pixel / kTileSize, inside = pixel % kTileSize;
+    return (tile.y * frame.tiles.x + tile.x - push.firstTile) * 64u + inside.y * kTileSize + inside.x;
+}
+
+bool isInBand(uvec2 pixel) {
+    uvec2 tile = pixel / kTileSize;
+    return tile.y * frame.tiles.x + tile.x - push.firstTile < push.tileCount;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Composites the list of each pixel front to back, exactly: media add up where they overlap.
+// Two forms: running sums where every medium and light is constant along the ray, and quadrature
+// over the set of open media where densities or light vary.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../common/lighting.glsl"
+#include "../../common/camera.glsl"
+#include "../../common/intersect.glsl"
+#include "pixels.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool kSurfaces = true;
+layout(constant_id = 1) const bool kBoxes = true;
+layout(constant_id = 2) const bool kVarying = true;        // densities or light vary along the ray
+layout(constant_id = 3) const bool kVaryingLight = true;   // point or spot lights
+layout(constant_id = 4) const bool kColoured = true;       // extinction differs between channels
+layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
+layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
+layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
+layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
+layout(binding = kBindingResult, rgba32f) writeonly uniform image2D result;
+
+const float kFar = 1e30;  // where the sky is
+
+Ray ray;
+uint first;   // of the list
+uint count;   // entries in it
+uint iterations = 0u;
+
+uvec2 loadEntry(uint i) { return Uvec2Array(push.entries).at[first + i]; }
+void storeEntry(uint i, uvec2 entry) { Uvec2Array(push.entries).at[first + i] = entry; }
+SurfaceRecord loadRecord(uvec2 entry) { return RecordArray(push.records).at[entry.y & kIndexMask]; }
+
+#include "path.glsl"
+#include "sort.glsl"
+#include "constant.glsl"
+#include "varying.glsl"
+
+// Solids around the eye: what the ray leaves without having entered it, seen over the whole list,
+// also behind opaque surfaces (Barta & Kovacs 2011, section 3.5, the backward pass).
+Solids findSolidsAroundEye(uint surfaceCount) {
+    Solids solids = noSolids();
+    for (uint i = count - surfaceCount; i < count; ++i) {
+        SurfaceRecord record = loadRecord(loadEntry(i));
+        if (record.face == kFaceThin) continue;
+        float sign = record.face == kFaceBack ? 1.0 : -1.0;
+        solids.count += record.face == kFaceBack ? 1 : -1;
+        addExactly(solids.extinctionHi, solids.extinctionLo, sign * record.transmission);
+        addExactly(solids.scatteringHi, solids.scatteringLo, sign * record.scattering);
+    }
+    return solids.count > 0 ? solids : noSolids();
+}
+
+void main() {
+    uint tile = push.firstTile + gl_WorkGroupID.x;
+    uvec2 pixel = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, frame.size))) return;
+    uint index = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+    first = UintArray(push.offsets).at[index];
+    count = UintArray(push.offsets).at[index + 1u] - first;
+    ray = makeRay(vec2(pixel) + 0.5);
+    float limit = min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar);
+
+    Solids solids = noSolids();
+    if (kSurfaces) {
+        uint surfaceCount = UintArray(push.surfaceCounts).at[index];
+        solids = findSolidsAroundEye(surfaceCount);
+        sortSurfaces(surfaceCount);
+    }
+    Path path = beginPath();
+    if (kVarying)
+        resolveVarying(path, solids, limit);
+    else
+        resolveConstant(path, solids, limit);
+    path.radiance += path.surfaces * path.decay * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
+    imageStore(result, ivec2(pixel), vec4(path.radiance, 1.0));
+    if (iterations >= kMaxIterations) atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the fragments of thin and solid surfaces. Solids count behind opaque surfaces too: their
+// exits tell whether the eye is inside.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../common/surface.glsl"
+#include "pixels.glsl"
+
+layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+
+void main() {
+    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    bool isSeen = point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
+    if (!isSeen || !isInBand(pixel)) return;
+    uint index = pixelIndex(pixel);
+    atomicAdd(UintArray(push.offsets).at[index], 1u);
+    atomicAdd(UintArray(push.surfaceCounts).at[index], 1u);
+}

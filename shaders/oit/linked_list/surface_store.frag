@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stores the fragments of thin and solid surfaces: a record each, and an entry from the end of the
+// pixel's list downwards.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../common/surface.glsl"
+#include "../../common/triangle_hash.h"
+#include "pixels.glsl"
+
+layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+
+SurfaceRecord makeRecord(SurfacePoint point) {
+    SurfaceRecord record;
+    record.rank = triangleHash(push.meshIndex, triangle);
+    if (point.material.type == kMaterialSolid) {
+        record.radiance = vec3(0);
+        record.coverage = 0.0;
+        record.transmission = point.material.extinction;
+        record.scattering = point.material.scattering;
+        record.face = point.isFront ? kFaceFront : kFaceBack;
+    } else {
+        record.radiance = sentRadiance(point, point.material.reflected);
+        record.coverage = point.material.coverage * point.color.a;
+        record.transmission = point.material.transmission * point.color.rgb;
+        record.scattering = vec3(0);
+        record.face = kFaceThin;
+    }
+    return record;
+}
+
+void main() {
+    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    bool isSeen = point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
+    if (!isSeen || !isInBand(pixel)) return;
+    uint index = pixelIndex(pixel);
+    uint slot = UintArray(push.offsets).at[index + 1u] - 1u - atomicAdd(UintArray(push.surfaceCursors).at[index], 1u);
+    uint recordIndex = atomicAdd(CounterBlock(push.counters).counters.records, 1u);
+    RecordArray(push.records).at[recordIndex] = makeRecord(point);
+    Uvec2Array(push.entries).at[slot] = uvec2(floatBitsToUint(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);
+}

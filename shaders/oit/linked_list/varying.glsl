@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media whose density varies along the ray, or light that does: between events (a medium begins or
+// ends, the ray crosses a voxel plane) every density is a polynomial of degree <= 4, so that Gauss's
+// rule with three points gives the optical depth exactly.
+#ifndef BRUME_OIT_LINKED_LIST_VARYING_GLSL
+#define BRUME_OIT_LINKED_LIST_VARYING_GLSL
+
+// Gauss-Legendre nodes and weights on [0, 1], and the integrals of the node polynomials up to each
+// node (the Butcher matrix of the three-stage Gauss method).
+const float kRoot15 = 3.872983346207417;
+const vec3 kNodes = vec3(0.5 - kRoot15 / 10.0, 0.5, 0.5 + kRoot15 / 10.0);
+const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
+const mat3 kUpTo = mat3(  // column k: integral from 0 to node k
+    5.0 / 36.0, 2.0 / 9.0 - kRoot15 / 15.0, 5.0 / 36.0 - kRoot15 / 30.0,
+    5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0,
+    5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0);
+
+layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
+
+struct Nodes {
+    vec3 extinction[3];
+    vec3 source[3];
+};
+
+// The ray in the local coordinates of a box.
+struct LocalRay {
+    vec3 origin, direction;
+};
+
+LocalRay localRay(BoxData box, VolumeData volume) {
+    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner), volume.indexFromWorld * ray.direction);
+}
+
+// The next distance behind `position` at which the ray crosses a plane between cells.
+float nextPlane(BoxData box, LocalRay local, float position) {
+    float nearest = kFar;
+    for (int axis = 0; axis < 3; ++axis) {
+        float o = local.origin[axis], d = local.direction[axis], size = box.size[axis];
+        if (abs(d) < 1e-30) continue;
+        if (box.kind == kBoxBrick) {
+            float cell = floor(o + d * position), step = d > 0.0 ? 1.0 : -1.0;
+            float plane = d > 0.0 ? cell + 1.0 : ceil(o + d * position) - 1.0;
+            float t = (plane - o) / d;
+            // Standing on the plane within rounding: take the one behind it.
+            float slack = 2e-6 / abs(d) + 2e-7 * position;
+            if (t <= position + slack) t = (plane + step - o) / d;
+            nearest = min(nearest, t);
+        } else if (box.kind == kBoxSoft) {
+            float inner = (1.0 - o) / d, outer = (size - 1.0 - o) / d;
+            float slack = 2e-7 * position;
+            if (inner > position + slack) nearest = min(nearest, inner);
+            if (outer > position + slack) nearest = min(nearest, outer);
+        }
+    }
+    return nearest;
+}
+
+// Values at the corners of the cell around local point `p`, x fastest.
+void loadCell(BoxData box, vec3 p, out vec4 low, out vec4 high, out vec3 cell) {
+    cell = clamp(floor(p), vec3(0), vec3(7));
+    uvec3 c = uvec3(cell);
+    uint base = box.valueOffset + (c.z * 9u + c.y) * 9u + c.x;
+    BrickValues values = BrickValues(frame.brickValues);
+    low = vec4(values.at[base], values.at[base + 1u], values.at[base + 9u], values.at[base + 10u]);
+    high = vec4(values.at[base + 81u], values.at[base + 82u], values.at[base + 90u], values.at[base + 91u]);
+}
+
+float trilinear(vec4 low, vec4 high, vec3 f) {
+    vec4 z = mix(low, high, f.z);
+    vec2 y = mix(z.xy, z.zw, f.y);
+    return mix(y.x, y.y, f.x);
+}
+
+vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
+    if (box.kind == kBoxHard) return vec3(box.value);
+    vec3 densities;
+    if (box.kind == kBoxBrick) {
+        vec4 low, high;
+        vec3 cell;
+        loadCell(box, local.origin + local.direction * t.y, low, high, cell);
+        for (int k = 0; k < 3; ++k)
+            densities[k] = trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
+        return densities;
+    }
+    for (int k = 0; k < 3; ++k) {
+        vec3 p = local.origin + local.direction * t[k];
+        vec3 ramp = clamp(min(p, box.size - p), 0.0, 1.0);
+        densities[k] = box.value * ramp.x * ramp.y * ramp.z;
+    }
+    return densities;
+}
+
+vec3 sphereDensities(SphereData sphere, vec3 t) {
+    if (sphere.profile == kProfileConstant) return vec3(sphere.density);
+    vec3 offset = sphere.center - ray.origin;
+    float middle = dot(offset, ray.direction);
+    vec3 perpendicular = offset - middle * ray.direction;
+    float inverse = 1.0 / (sphere.radius * sphere.radius);
+    vec3 q = max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
+    return sphere.density * q * q;
+}
+
+void addToNodes(inout Nodes nodes, MediumData medium, vec3 tint, vec3 densities, vec3 t, vec3 constantLight) {
+    for (int k = 0; k < 3; ++k) {
+        vec3 light = kVaryingLight
+                         ? scatteredRadiance(medium, ray.origin + ray.direction * t[k], ray.direction)
+                         : constantLight;
+        vec3 extinction = medium.extinction * densities[k];
+        nodes.extinction[k] += extinction;
+        nodes.source[k] += tint * (extinction * medium.albedo * light + medium.emission * densities[k]);
+    }
+}
+
+// Extinction and source of everything that is open, at three distances.
+Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
+    Nodes nodes;
+    MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
+    for (int k = 0; k < 3; ++k) {
+        nodes.extinction[k] = vec3(0);
+        nodes.source[k] = vec3(0);
+        if (kSurfaces) {
+            vec3 scattering = solids.scatteringHi + solids.scatteringLo;
+            nodes.extinction[k] = solids.extinctionHi + solids.extinctionLo;
+            nodes.source[k] = scattering * scatteredRadiance(isotropic, ray.origin + ray.direction * min(t[k], 1e6), ray.direction);
+        }
+    }
+    for (uint i = 0u; i < openCount; ++i) {
+        uvec2 entry = loadEntry(i);
+        uint index = entry.y & kIndexMask;
+        vec3 densities, tint = vec3(1);
+        uint mediumIndex;
+        if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
+            BoxData box = boxes[index];
+            VolumeData volume = volumes[box.volume];
+            densities = boxDensities(box, localRay(box, volume), t);
+            mediumIndex = volume.medium;
+        } else {
+            SphereData sphere = spheres[index];
+            densities = sphereDensities(sphere, t);
+            mediumIndex = sphere.medium;
+            tint = sphere.tint;
+        }
+        MediumData medium = media[mediumIndex];
+        vec3 light = kVaryingLight ? vec3(0) : scatteredRadiance(medium, vec3(0), ray.direction);
+        addToNodes(nodes, medium, tint, densities, t, light);
+    }
+    return nodes;
+}
+
+// A step short enough for three nodes near every light: 1/d^2 has its pole d away from the ray.
+float limitStepByLights(float position) {
+    float limit = kFar;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        if (lights[i].type == kLightDirectional) continue;
+        vec3 offset = lights[i].position - ray.origin;
+        float ahead = dot(offset, ray.direction) - position;
+        float aside = length(offset - (ahead + position) * ray.direction);
+        float distance = sqrt(ahead * ahead + aside * aside);
+        limit = min(limit, max(ahead > 0.0 ? distance / 3.0 : distance * 0.5, 0.5 * max(aside, lights[i].radius)));
+    }
+    return limit;
+}
+
+// Integrates source * exp(-depth) over one step. The mean source radiance is taken exactly; only its
+// variation within the step is left to the nodes. False (and nothing done) if the step is too long for that.
+bool crossVarying(inout Path path, Nodes nodes, float distance) {
+    vec3 extinction = vec3(0), source = vec3(0);
+    for (int k = 0; k < 3; ++k) {
+        extinction += kWeights[k] * nodes.extinction[k];
+        source += kWeights[k] * nodes.source[k];
+    }
+    vec3 depth = extinction * distance;
+    vec3 before = path.surfaces * path.decay;
+    vec3 mean = source / max(extinction, vec3(1e-30));
+    bvec3 empty = lessThan(depth, vec3(1e-7));
+    vec3 variation = vec3(0), size = vec3(0);
+    for (int k = 0; k < 3; ++k) {
+        vec3 depthAtNode = distance * (kUpTo[k][0] * nodes.extinction[0] + kUpTo[k][1] * nodes.extinction[1] +
+                                       kUpTo[k][2] * nodes.extinction[2]);
+        vec3 difference = nodes.source[k] - mean * nodes.extinction[k];
+        variation += kWeights[k] * difference * expChannels(-max(depthAtNode, 0.0));
+        size += kWeights[k] * abs(difference);
+    }
+    variation = mix(variation * distance, vec3(0), empty);
+    size = mix(before * size * distance, vec3(0), empty);
+    vec3 error = size * min(depth * depth * depth, vec3(1)) * 0.02;
+    if (max(error.x, max(error.y, error.z)) > 1e-6 && max(depth.x, max(depth.y, depth.z)) > 0.25) return false;
+    crossConstant(path, extinction, source, distance);
+    path.radiance += before * variation;
+    return true;
+}
+
+void resolveVarying(inout Path path, Solids solids, float limit) {
+    // The open media live in list[0 .. openCount), unordered, as (bits of their end, kind and index):
+    // the entries there are used up.
+    uint openCount = 0u, next = 0u;
+    float position = 0.0, stepLimit = kFar;
+    while (iterations < kMaxIterations) {
+        ++iterations;
+        uvec2 entry = next < count ? loadEntry(next) : uvec2(0);
+        float enter = next < count ? uintBitsToFloat(entry.x) : kFar;
+        float leave = kFar, plane = kFar;
+        uint leaving = 0u;
+        for (uint i = 0u; i < openCount; ++i) {
+            uvec2 open = loadEntry(i);
+            float end = uintBitsToFloat(open.x);
+            if (end < leave) leave = end, leaving = i;
+            if (kBoxes && (open.y >> kKindShift) == kKindBox) {
+                BoxData box = boxes[open.y & kIndexMask];
+                plane = min(plane, nextPlane(box, localRay(box, volumes[box.volume]), position));
+            }
+        }
+        iterations += 2u * openCount;
+        float event = max(min(min(enter, leave), limit), position);
+        float target = max(min(event, plane), position);
+        if (openCount > 0u || solids.count > 0) {
+            if (kVaryingLight) target = min(target, position + limitStepByLights(position));
+            target = min(target, position + stepLimit);
+        }
+        float distance = target - position;
+        if (distance > 0.0) {
+            Nodes nodes = evaluateNodes(openCount, solids, position + distance * kNodes);
+            if (!crossVarying(path, nodes, distance)) {
+                stepLimit = distance * 0.4;
+                continue;
+            }
+        }
+        stepLimit = target < event ? 4.0 * max(distance, 1e-6 * position) : kFar;
+        position = target;
+        if (position >= limit || isOpaque(path)) break;
+        if (target < event) continue;
+
+        if (enter <= leave) {
+            if (kSurfaces && (entry.y >> kKindShift) == kKindSurface) {
+                SurfaceRecord record = loadRecord(entry);
+                if (record.face == kFaceThin) crossThin(path, record);
+                else crossSolid(solids, record);
+            } else {
+                vec2 t;
+                uint index = entry.y & kIndexMask;
+                if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
+                    LocalRay local = localRay(boxes[index], volumes[boxes[index].volume]);
+                    intersectBox(local.origin, local.direction, boxes[index].size, t);
+                } else {
+                    intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);
+                }
+                storeEntry(openCount, uvec2(floatBitsToUint(t.y), entry.y));
+                ++openCount;
+            }
+            ++next;
+        } else {
+            --openCount;
+            storeEntry(leaving, loadEntry(openCount));
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the media of each tile, or scatters their indices to the tiles' lists.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../common/bindings.glsl"
+#include "../../gpu/address.glsl"
+#include "bins.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kScatter = false;
+layout(push_constant, scalar) uniform Push { BinPush push; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    uvec2 rect = Uvec2Array(push.rects).at[i];
+    if (rect.x > rect.y && rect == uvec2(1u, 0u)) return;
+    uvec2 first = uvec2(rect.x & 0xffffu, rect.x >> 16), last = uvec2(rect.y & 0xffffu, rect.y >> 16);
+    uint start = first.y + (gl_GlobalInvocationID.y + kBinRowSlices - first.y % kBinRowSlices) % kBinRowSlices;
+    for (uint y = start; y <= last.y; y += kBinRowSlices)
+        for (uint x = first.x; x <= last.x; ++x) {
+            uint tile = y * frame.tiles.x + x;
+            if (kScatter) {
+                uint slot = UintArray(push.counts).at[tile] + atomicAdd(UintArray(push.cursors).at[tile], 1u);
+                UintArray(push.pairs).at[slot] = i;
+            } else {
+                atomicAdd(UintArray(push.counts).at[tile], 1u);
+            }
+        }
+}

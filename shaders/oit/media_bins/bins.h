@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media sorted by distance and binned to screen tiles; C++ and GLSL.
+#ifndef BRUME_SHADERS_OIT_MEDIA_BINS_H
+#define BRUME_SHADERS_OIT_MEDIA_BINS_H
+#include "../../common/shared.h"
+
+BRUME_STRUCTS_BEGIN
+
+struct BinPush {
+    uint64_t keys;     // uint[count]: sort keys, or ids to sort by first
+    uint64_t values;   // uint[count]: indices in sorted order
+    uint64_t rects;    // uvec2[count]: first and last tile, x | y << 16; first > last: not visible
+    uint64_t counts;   // uint[tiles]: how many media touch each tile; when scattering, the offsets
+    uint64_t cursors;  // uint[tiles]: how many are scattered already
+    uint64_t pairs;    // uint[]: indices of the media of each tile
+    uint count;
+};
+
+// One invocation bins one medium to the tile rows y with y % kBinRowSlices == its slice: bounds the
+// loop of a medium that covers the whole screen.
+BRUME_CONST uint kBinRowSlices = 8u;
+
+// Own bindings.
+BRUME_CONST uint kBindingSortedSpheres = 8u;  // SphereData[], written by gather
+
+BRUME_STRUCTS_END
+#endif
