@@ -23,8 +23,9 @@ float columnLimits[kRows];  // media that begin behind this distance are not see
 
 // False outside the band.
 bool beginColumn(out uint tile, out uint firstPixel) {
-    uint bandTile = gl_GlobalInvocationID.x / kTileSize;
-    uint column = gl_GlobalInvocationID.x % kTileSize;
+    uint thread = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
+    uint bandTile = thread / kTileSize;
+    uint column = thread % kTileSize;
     tile = push.firstTile + bandTile;
     firstPixel = bandTile * 64u + column;
     uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);

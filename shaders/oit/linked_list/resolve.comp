@@ -54,10 +54,11 @@ Solids findSolidsAroundEye(uint surfaceCount) {
 }
 
 void main() {
-    uint tile = push.firstTile + gl_WorkGroupID.x;
+    uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    uint tile = push.firstTile + bandTile;
     uvec2 pixel = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, frame.size))) return;
-    uint index = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+    if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
+    uint index = bandTile * 64u + gl_LocalInvocationIndex;
     first = UintArray(push.offsets).at[index];
     count = UintArray(push.offsets).at[index + 1u] - first;
     ray = makeRay(vec2(pixel) + 0.5);

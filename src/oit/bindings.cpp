@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <oit/bindings.hpp>
+
+#include <shaders/common/frame_bindings.h>
+#include <shaders/common/mesh.h>
+
+namespace brume::oit {
+
+using gpu::BindingType;
+
+std::vector<gpu::Binding> frameBindings() {
+    return {{shader::kBindingFrame, BindingType::StorageBuffer},
+            {shader::kBindingLights, BindingType::StorageBuffer},
+            {shader::kBindingMedia, BindingType::StorageBuffer}};
+}
+
+std::vector<gpu::Binding> mediaBindings() {
+    return {{shader::kBindingSpheres, BindingType::StorageBuffer},
+            {shader::kBindingBoxes, BindingType::StorageBuffer},
+            {shader::kBindingVolumes, BindingType::StorageBuffer}};
+}
+
+std::vector<gpu::Binding> meshBindings() {
+    return {{shader::kBindingVertices, BindingType::StorageBuffer},
+            {shader::kBindingIndices, BindingType::StorageBuffer},
+            {shader::kBindingMeshes, BindingType::StorageBuffer},
+            {shader::kBindingMaterials, BindingType::StorageBuffer},
+            {shader::kBindingColorTexture, BindingType::SampledImage},
+            {shader::kBindingEmissionTexture, BindingType::SampledImage}};
+}
+
+std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+void bindFrame(gpu::Commands& commands, const Inputs& inputs) {
+    commands.bind(shader::kBindingFrame, *inputs.frame);
+    commands.bind(shader::kBindingLights, *inputs.lights);
+    commands.bind(shader::kBindingMedia, *inputs.media);
+}
+
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres) {
+    commands.bind(shader::kBindingSpheres, spheres);
+    commands.bind(shader::kBindingBoxes, *inputs.boxes);
+    commands.bind(shader::kBindingVolumes, *inputs.volumes);
+}
+
+void bindMeshes(gpu::Commands& commands, const Inputs& inputs) {
+    commands.bind(shader::kBindingVertices, *inputs.vertices);
+    commands.bind(shader::kBindingIndices, *inputs.indices);
+    commands.bind(shader::kBindingMeshes, *inputs.meshes);
+    commands.bind(shader::kBindingMaterials, *inputs.materials);
+}
+
+void bindTextures(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw) {
+    commands.bind(shader::kBindingColorTexture, *draw.colorTexture, *inputs.textureSampler);
+    commands.bind(shader::kBindingEmissionTexture, *draw.emissionTexture, *inputs.textureSampler);
+}
+
+}  // namespace brume::oit

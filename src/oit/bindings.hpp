@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Descriptor bindings that many passes share, and how they are filled.
+#pragma once
+
+#include <gpu/commands.hpp>
+#include <oit/inputs.hpp>
+
+#include <vector>
+
+namespace brume::oit {
+
+/// FrameData, lights and media: in every pass.
+std::vector<gpu::Binding> frameBindings();
+/// Spheres, boxes and volumes.
+std::vector<gpu::Binding> mediaBindings();
+/// Vertices, indices, meshes, materials and textures.
+std::vector<gpu::Binding> meshBindings();
+std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b);
+
+void bindFrame(gpu::Commands& commands, const Inputs& inputs);
+/// `spheres`: sorted or as they came.
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres);
+void bindMeshes(gpu::Commands& commands, const Inputs& inputs);
+
+void bindTextures(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw);
+
+/// Binds the textures of each surface and draws it; push(mesh) sets the push constants.
+template <typename Push>
+void drawSurfaces(gpu::Commands& commands, const Inputs& inputs, const Push& push) {
+    for (const SurfaceDraw& draw : inputs.surfaces) {
+        push(draw.mesh);
+        bindTextures(commands, inputs, draw);
+        commands.draw(draw.vertexCount);
+    }
+}
+}  // namespace brume::oit

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <core/error.hpp>
+#include <oit/bindings.hpp>
+#include <oit/media_bins.hpp>
+
+#include <shaders/common/frame.h>
+#include <shaders/common/frame_bindings.h>
+#include <shaders/common/sphere.h>
+#include <shaders/oit/media_bins/bins.h>
+#include <spv/oit/media_bins/bin.comp.hpp>
+#include <spv/oit/media_bins/box_rects.comp.hpp>
+#include <spv/oit/media_bins/gather.comp.hpp>
+#include <spv/oit/media_bins/keys.comp.hpp>
+
+#include <algorithm>
+
+namespace brume::oit {
+namespace {
+
+using frame::Access;
+
+gpu::ComputePipeline makePipeline(gpu::Device& device, const std::string& name,
+                                  std::span<const std::uint32_t> spirv,
+                                  std::vector<gpu::Binding> own,
+                                  std::vector<std::uint32_t> specialization = {}) {
+    return {device,
+            {.name = name,
+             .spirv = spirv,
+             .bindings = join(frameBindings(), own),
+             .pushConstantBytes = sizeof(shader::BinPush),
+             .specialization = std::move(specialization)}};
+}
+
+const gpu::Binding kSpheresBinding{shader::kBindingSpheres, gpu::BindingType::StorageBuffer};
+
+gpu::Buffer makeUints(gpu::Device& device, const std::string& name, std::uint64_t count) {
+    return {device, {.name = name, .bytes = 4 * std::max<std::uint64_t>(count, 1)}};
+}
+
+}  // namespace
+
+MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs)
+    : mDevice(&device),
+      mName(name),
+      mTileCount((inputs.extent.width + shader::kTileSize - 1) / shader::kTileSize *
+                 ((inputs.extent.height + shader::kTileSize - 1) / shader::kTileSize)),
+      mIdentityKeys(makePipeline(device, name + ".identity_keys", spv::oit_media_bins_keys_comp,
+                                 {kSpheresBinding}, {1})),
+      mDistanceKeys(makePipeline(device, name + ".distance_keys", spv::oit_media_bins_keys_comp,
+                                 {kSpheresBinding}, {0})),
+      mGather(makePipeline(device, name + ".gather", spv::oit_media_bins_gather_comp,
+                           {kSpheresBinding,
+                            {shader::kBindingSortedSpheres, gpu::BindingType::StorageBuffer}})),
+      mBoxRects(makePipeline(device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
+                             {{shader::kBindingBoxes, gpu::BindingType::StorageBuffer},
+                              {shader::kBindingVolumes, gpu::BindingType::StorageBuffer}})),
+      mBinCount(makePipeline(device, name + ".bin_count", spv::oit_media_bins_bin_comp, {}, {0})),
+      mBinScatter(makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
+      mPrefixSum(device) {
+    const std::uint64_t sphereBytes = std::max(inputs.sphereCount, 1u) * sizeof(shader::SphereData);
+    if (inputs.sphereCount > 0) mSort.emplace(device, name + ".sort", inputs.sphereCount);
+    mKeys = makeUints(device, name + ".keys", inputs.sphereCount);
+    mValues = makeUints(device, name + ".values", inputs.sphereCount);
+    mSortedSpheres = {device, {.name = name + ".sorted_spheres", .bytes = sphereBytes}};
+    mSpheres = makeSet(device, name + ".sphere_bins", inputs.sphereCount);
+    mBoxes = makeSet(device, name + ".box_bins", inputs.boxCount);
+}
+
+MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
+                                  std::uint32_t count) const {
+    Set set;
+    set.count = count;
+    set.rects = makeUints(device, name + ".rects", 2ull * count);
+    set.offsets = makeUints(device, name + ".offsets", mTileCount + 1);
+    set.cursors = makeUints(device, name + ".cursors", mTileCount);
+    set.sums = makeUints(device, name + ".sums", gpu::PrefixSum::sumCount(mTileCount + 1));
+    set.pairs = makeUints(device, name + ".pairs", 1);
+    set.total = {device, {.name = name + ".total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
+    return set;
+}
+
+void MediaBins::recordSort(gpu::Commands& commands, const Inputs& inputs,
+                           const gpu::Buffer& spheres) const {
+    const shader::BinPush push{.keys = mKeys.deviceAddress(),
+                               .values = mValues.deviceAddress(),
+                               .rects = mSpheres.rects.deviceAddress(),
+                               .count = inputs.sphereCount};
+    const std::uint32_t groups = (inputs.sphereCount + 63) / 64;
+    const auto run = [&](const gpu::ComputePipeline& pipeline) {
+        commands.bindCompute(pipeline);
+        bindFrame(commands, inputs);
+        commands.bind(shader::kBindingSpheres, spheres);
+        if (&pipeline == &mGather) commands.bind(shader::kBindingSortedSpheres, mSortedSpheres);
+        commands.pushConstants(push);
+        commands.dispatch(groups);
+        commands.computeBarrier();
+    };
+    run(mIdentityKeys);
+    if (!inputs.sphereIdsAscend) {
+        mSort->record(commands, push.keys, push.values, push.count);
+        commands.computeBarrier();
+    }
+    run(mDistanceKeys);
+    mSort->record(commands, push.keys, push.values, push.count);
+    commands.computeBarrier();
+    run(mGather);
+}
+
+void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
+                          const gpu::ComputePipeline& pipeline) const {
+    commands.bindCompute(pipeline);
+    bindFrame(commands, inputs);
+    commands.pushConstants(shader::BinPush{.rects = set.rects.deviceAddress(),
+                                           .counts = set.offsets.deviceAddress(),
+                                           .cursors = set.cursors.deviceAddress(),
+                                           .pairs = set.pairs.deviceAddress(),
+                                           .count = set.count});
+    commands.dispatch((set.count + 63) / 64, shader::kBinRowSlices);
+}
+
+void MediaBins::recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const {
+    if (set.count > 0) recordBin(commands, inputs, set, mBinCount);
+    commands.computeBarrier();
+    mPrefixSum.record(commands, set.offsets.deviceAddress(), mTileCount + 1,
+                      set.sums.deviceAddress());
+}
+
+void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
+    frame::PassBuilder& pass = frame.addPass(mName + ".bin");
+    for (const Set* set : {&mSpheres, &mBoxes})
+        for (const gpu::Buffer* buffer : {&set->offsets, &set->cursors})
+            pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
+    pass.reads(inputs.spheres, Access::ComputeRead);
+    for (const gpu::Buffer* buffer :
+         {&mKeys, &mValues, &mSortedSpheres, &mSpheres.rects, &mSpheres.sums, &mSpheres.offsets,
+          &mBoxes.rects, &mBoxes.sums, &mBoxes.offsets})
+        pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
+    pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+        for (const Set* set : {&mSpheres, &mBoxes}) {
+            commands.fillBuffer(set->offsets, 0);
+            commands.fillBuffer(set->cursors, 0);
+        }
+        commands.computeTransferBarrier();
+        if (mSpheres.count > 0) recordSort(commands, inputs, resources.buffer(inputs.spheres));
+        if (mBoxes.count > 0) {
+            commands.bindCompute(mBoxRects);
+            bindFrame(commands, inputs);
+            commands.bind(shader::kBindingBoxes, *inputs.boxes);
+            commands.bind(shader::kBindingVolumes, *inputs.volumes);
+            commands.pushConstants(
+                shader::BinPush{.rects = mBoxes.rects.deviceAddress(), .count = mBoxes.count});
+            commands.dispatch((mBoxes.count + 63) / 64);
+            commands.computeBarrier();
+        }
+        recordCount(commands, inputs, mSpheres);
+        recordCount(commands, inputs, mBoxes);
+    });
+}
+
+void MediaBins::declareTotals(frame::FrameBuilder& frame) {
+    frame::PassBuilder& pass = frame.addPass(mName + ".totals");
+    for (const Set* set : {&mSpheres, &mBoxes}) {
+        pass.reads(frame.importBuffer(set->offsets), Access::TransferRead);
+        pass.writes(frame.importBuffer(set->total), Access::TransferWrite);
+    }
+    pass.record([this](gpu::Commands& commands, const frame::PassResources&) {
+        for (const Set* set : {&mSpheres, &mBoxes})
+            commands.copyBuffer(set->offsets, set->total, 4, 4ull * mTileCount);
+    });
+}
+
+void MediaBins::allocate() {
+    for (Set* set : {&mSpheres, &mBoxes}) {
+        set->pairCount = set->total.mappedAs<std::uint32_t>()[0];
+        const std::string name = set->pairs.name();
+        set->pairs = makeUints(*mDevice, name, set->pairCount);
+    }
+}
+
+void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs) {
+    frame::PassBuilder& pass = frame.addPass(mName + ".scatter");
+    for (const Set* set : {&mSpheres, &mBoxes}) {
+        pass.reads(frame.importBuffer(set->rects), Access::ComputeRead);
+        pass.reads(frame.importBuffer(set->offsets), Access::ComputeRead);
+        pass.readsWrites(frame.importBuffer(set->cursors), Access::ComputeWrite);
+        pass.writes(frame.importBuffer(set->pairs), Access::ComputeWrite);
+    }
+    pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources&) {
+        for (const Set* set : {&mSpheres, &mBoxes})
+            if (set->count > 0) recordBin(commands, inputs, *set, mBinScatter);
+    });
+}
+
+void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {
+    for (const gpu::Buffer* buffer : {&mSortedSpheres, &mSpheres.offsets, &mSpheres.pairs,
+                                      &mBoxes.offsets, &mBoxes.pairs})
+        pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
+}
+
+std::uint64_t MediaBins::bytes() const {
+    std::uint64_t sum = mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes();
+    if (mSort) sum += mSort->bytes();
+    for (const Set* set : {&mSpheres, &mBoxes})
+        for (const gpu::Buffer* buffer :
+             {&set->rects, &set->offsets, &set->cursors, &set->sums, &set->pairs})
+            sum += buffer->bytes();
+    return sum;
+}
+
+}  // namespace brume::oit

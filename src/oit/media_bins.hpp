@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The media of a frame, sorted front to back and binned to screen tiles.
+#pragma once
+
+#include <gpu/prefix_sum.hpp>
+#include <gpu/radix_sort.hpp>
+#include <oit/inputs.hpp>
+
+#include <optional>
+
+namespace brume::oit {
+
+/// Count, scan, scatter: the memory for the tiles' lists is known before any of it is written.
+/// Lists are nearly, not exactly, in the order of distance (spheres; boxes in any order).
+class MediaBins {
+  public:
+    /// `name` of the passes' prefix, e.g. "oit.linked_list".
+    MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs);
+
+    /// Pass "<name>.bin": sorts, and counts how many media touch each tile.
+    void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
+    /// Copies the totals to the host; after that frame, allocate() makes room for the lists.
+    void declareTotals(frame::FrameBuilder& frame);
+    void allocate();
+    /// Pass "<name>.scatter": fills the tiles' lists.
+    void declareScatter(frame::FrameBuilder& frame, const Inputs& inputs);
+
+    /// Must be declared as read by passes that use the addresses below.
+    void declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const;
+
+    const gpu::Buffer& sortedSpheres() const { return mSortedSpheres; }
+    struct List {
+        VkDeviceAddress offsets = 0;  ///< uint[tiles + 1]
+        VkDeviceAddress pairs = 0;    ///< uint[], indices into the sorted spheres or the boxes
+    };
+    List spheres() const { return listOf(mSpheres); }
+    List boxes() const { return listOf(mBoxes); }
+    std::uint64_t pairCount() const { return mSpheres.pairCount + mBoxes.pairCount; }
+    std::uint64_t bytes() const;
+
+  private:
+    struct Set {
+        std::uint32_t count = 0;
+        gpu::Buffer rects, offsets, cursors, sums, pairs, total;
+        std::uint64_t pairCount = 0;
+    };
+    static List listOf(const Set& set) {
+        return {set.offsets.deviceAddress(), set.pairs.deviceAddress()};
+    }
+    Set makeSet(gpu::Device& device, const std::string& name, std::uint32_t count) const;
+    void recordSort(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres) const;
+    void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
+    void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
+                   const gpu::ComputePipeline& pipeline) const;
+
+    gpu::Device* mDevice;
+    std::string mName;
+    std::uint32_t mTileCount;
+    gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mBinCount, mBinScatter;
+    gpu::PrefixSum mPrefixSum;
+    std::optional<gpu::RadixSort> mSort;
+    gpu::Buffer mKeys, mValues, mSortedSpheres;
+    Set mSpheres, mBoxes;
+};
+
+}  // namespace brume::oit

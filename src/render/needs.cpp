@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <render/needs.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace brume::render {
+namespace {
+
+bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
+
+void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
+    for (const scene::Mesh& mesh : scene.meshes) {
+        const scene::Material& material = scene.materials[mesh.material];
+        if (material.type == scene::MaterialType::Opaque) continue;
+        needs.surfaces = true;
+        if (material.type == scene::MaterialType::Solid && !isGrey(material.absorption + material.scattering))
+            needs.colouredExtinction = true;
+    }
+}
+
+void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
+    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
+        const volumes::VolumeGrid& grid = prepared.volumes[i];
+        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles) continue;
+        if (grid.isEmpty()) continue;
+        needs.boxes = true;
+        if (!grid.bricks.empty()) needs.varyingDensity = true;
+        if (std::any_of(grid.boxes.begin(), grid.boxes.end(), [](const auto& box) { return box.soft; }))
+            needs.varyingDensity = true;
+    }
+}
+
+}  // namespace
+
+oit::Needs findNeeds(const PreparedScene& prepared) {
+    const scene::Scene& scene = prepared.scene;
+    oit::Needs needs;
+    needs.spheres = !prepared.spheres.empty() || !scene.effects.empty();
+    for (const scene::MediumSphere& sphere : prepared.spheres)
+        if (sphere.profile == scene::Profile::Smooth) needs.varyingDensity = true;
+    for (const scene::EffectInstance& effect : scene.effects)
+        if (effect.effect.smoothProfile) needs.varyingDensity = true;
+    addVolumeNeeds(prepared, needs);
+    addSurfaceNeeds(scene, needs);
+    for (const scene::Medium& medium : scene.media)
+        if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
+    for (const scene::Light& light : scene.lights) {
+        if (light.type == scene::LightType::Ambient) continue;
+        ++needs.lights;
+        if (light.type != scene::LightType::Directional) needs.varyingLight = true;
+    }
+    return needs;
+}
+
+std::string describe(const oit::Needs& needs) {
+    const auto line = [](const char* name, bool used, const char* meaning) {
+        return fmt::format("  {:<20} {:<4} {}\n", name, used ? "yes" : "no", meaning);
+    };
+    return "needs\n" + line("spheres", needs.spheres, "soft spheres of particles or the scene") +
+           line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
+           line("surfaces", needs.surfaces, "thin or solid glass, cards") +
+           line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
+           line("varyingLight", needs.varyingLight, "point or spot lights on media") +
+           line("colouredExtinction", needs.colouredExtinction, "three exponentials instead of one") +
+           fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights", needs.lights);
+}
+
+}  // namespace brume::render

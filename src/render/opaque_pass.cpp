@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <oit/bindings.hpp>
+#include <render/opaque_pass.hpp>
+
+#include <shaders/common/frame_bindings.h>
+#include <shaders/common/mesh.h>
+#include <spv/common/mesh.vert.hpp>
+#include <spv/common/screen.vert.hpp>
+#include <spv/render/background.frag.hpp>
+#include <spv/render/opaque.frag.hpp>
+#include <spv/render/triangles.frag.hpp>
+
+namespace brume::render {
+namespace {
+
+using frame::Access;
+
+constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+void drawMeshes(gpu::Commands& commands, const oit::Inputs& inputs,
+                const std::vector<oit::SurfaceDraw>& draws) {
+    for (const oit::SurfaceDraw& draw : draws) {
+        commands.pushConstants(shader::MeshPush{draw.mesh});
+        oit::bindTextures(commands, inputs, draw);
+        commands.draw(draw.vertexCount);
+    }
+}
+
+}  // namespace
+
+OpaquePass::OpaquePass(gpu::Device& device)
+    : mBackground(device,
+                  {.name = "render.background",
+                   .vertexSpirv = spv::common_screen_vert,
+                   .fragmentSpirv = spv::render_background_frag,
+                   .bindings = oit::join(oit::frameBindings(),
+                                         {{shader::kBindingOwn, gpu::BindingType::SampledImage}}),
+                   .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}}}),
+      mOpaque(device, {.name = "render.opaque",
+                       .vertexSpirv = spv::common_mesh_vert,
+                       .fragmentSpirv = spv::render_opaque_frag,
+                       .bindings = oit::join(oit::frameBindings(), oit::meshBindings()),
+                       .pushConstantBytes = sizeof(shader::MeshPush),
+                       .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}},
+                       .depthFormat = kDepthFormat,
+                       .depthTest = true,
+                       .depthWrite = true}),
+      mTriangles(device,
+                 {.name = "render.triangles",
+                  .vertexSpirv = spv::common_mesh_vert,
+                  .fragmentSpirv = spv::render_triangles_frag,
+                  .bindings = oit::join(
+                      oit::join(oit::frameBindings(), oit::meshBindings()),
+                      {{shader::kBindingOpaqueT, gpu::BindingType::SampledImage},
+                       {shader::kBindingTriangles, gpu::BindingType::StorageBuffer}}),
+                  .pushConstantBytes = sizeof(shader::MeshPush)}) {}
+
+void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
+                         oit::Inputs& inputs) const {
+    const auto makeTarget = [&](const char* name, VkFormat format) {
+        return frame.createImage({.name = name,
+                                  .format = format,
+                                  .width = inputs.extent.width,
+                                  .height = inputs.extent.height,
+                                  .usage = 0});
+    };
+    inputs.opaqueColor = makeTarget("render.opaque_color", kColorFormat);
+    inputs.opaqueT = makeTarget("render.opaque_t", kDistanceFormat);
+    frame.addPass("render.background")
+        .color(inputs.opaqueColor, gpu::LoadOp::DontCare)
+        .color(inputs.opaqueT, gpu::LoadOp::DontCare)
+        .record([this, &scene, inputs](gpu::Commands& commands, const frame::PassResources&) {
+            commands.bindGraphics(mBackground);
+            oit::bindFrame(commands, inputs);
+            commands.bind(shader::kBindingOwn, scene.environment(), *inputs.texelSampler);
+            commands.draw(3);
+        });
+    if (scene.opaqueMeshes().empty()) return;
+    const frame::ImageRef depth = makeTarget("render.depth", kDepthFormat);
+    frame.addPass("render.opaque")
+        .color(inputs.opaqueColor, gpu::LoadOp::Load)
+        .color(inputs.opaqueT, gpu::LoadOp::Load)
+        .depth(depth, gpu::LoadOp::Clear)
+        .record([this, &scene, inputs](gpu::Commands& commands, const frame::PassResources&) {
+            commands.bindGraphics(mOpaque);
+            oit::bindFrame(commands, inputs);
+            oit::bindMeshes(commands, inputs);
+            drawMeshes(commands, inputs, scene.opaqueMeshes());
+        });
+}
+
+void OpaquePass::declareTriangles(frame::FrameBuilder& frame, const GpuScene& scene,
+                                  const oit::Inputs& inputs, const gpu::Buffer& triangles) const {
+    const frame::BufferRef target = frame.importBuffer(triangles);
+    frame.addPass("render.triangles_clear")
+        .writes(target, Access::TransferWrite)
+        .record([&triangles](gpu::Commands& commands, const frame::PassResources&) {
+            commands.fillBuffer(triangles, 0);
+        });
+    frame.addPass("render.triangles")
+        .reads(inputs.opaqueT, Access::FragmentSample)
+        .readsWrites(target, Access::FragmentWrite)
+        .renderArea(inputs.extent)
+        .record([this, &scene, inputs, &triangles](gpu::Commands& commands,
+                                                   const frame::PassResources& resources) {
+            commands.bindGraphics(mTriangles);
+            oit::bindFrame(commands, inputs);
+            oit::bindMeshes(commands, inputs);
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingTriangles, triangles);
+            drawMeshes(commands, inputs, scene.opaqueMeshes());
+            drawMeshes(commands, inputs, inputs.surfaces);
+        });
+}
+
+}  // namespace brume::render

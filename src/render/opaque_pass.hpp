@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies behind everything: background and opaque meshes, as a host's renderer would supply them.
+#pragma once
+
+#include <render/gpu_scene.hpp>
+
+namespace brume::render {
+
+class OpaquePass {
+  public:
+    explicit OpaquePass(gpu::Device& device);
+
+    /// Passes "render.background" and "render.opaque"; sets inputs.opaqueT and inputs.opaqueColor.
+    void declare(frame::FrameBuilder& frame, const GpuScene& scene, oit::Inputs& inputs) const;
+
+    /// Pass "render.triangles": per pixel the wrapping sum of triangleHash() of what it sees.
+    void declareTriangles(frame::FrameBuilder& frame, const GpuScene& scene,
+                          const oit::Inputs& inputs, const gpu::Buffer& triangles) const;
+
+  private:
+    gpu::GraphicsPipeline mBackground, mOpaque, mTriangles;
+};
+
+}  // namespace brume::render
