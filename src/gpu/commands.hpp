@@ -76,6 +76,10 @@ class Commands {
                      std::uint32_t firstIndex = 0, std::int32_t vertexOffset = 0,
                      std::uint32_t firstInstance = 0);
 
+    void drawIndexedIndirect(const Buffer& arguments, std::uint64_t offset = 0,
+                             std::uint32_t draws = 1,
+                             std::uint32_t stride = sizeof(VkDrawIndexedIndirectCommand));
+
     /// Attachments must be in their attachment layouts. Viewport and scissor become `area`, by
     /// default the first attachment's extent (required when there is none).
     void beginRendering(std::span<const ColorAttachment> colors,
@@ -135,7 +139,6 @@ class Commands {
     const Pipeline* mPipeline = nullptr;
     std::vector<Bound> mBound;
     bool mIsDirty = false;
-    bool mIsPushed = false;
 };
 
 }  // namespace brume::gpu

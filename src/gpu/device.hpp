@@ -18,6 +18,7 @@ struct VolkDeviceTable;
 namespace brume::gpu {
 
 class ObjectRegistry;
+struct InstanceFunctions;
 
 /// How Device::create() chooses and sets up a device.
 struct DeviceOptions {
@@ -38,6 +39,7 @@ struct OptionalFeatures {
     bool drawParameters = false;          ///< gl_BaseInstance, gl_DrawID
     bool multiDrawIndirect = false;
     bool storageImageWriteWithoutFormat = false;
+    bool depthClamp = false;
     bool vertexStores = false;  ///< stores and atomics in vertex shaders
 };
 
@@ -101,6 +103,14 @@ struct ObjectInfo {
     std::string name;
     std::uint64_t bytes = 0;  ///< of device memory, as allocated
     MemoryKind memory = MemoryKind::Device;
+    std::uint32_t heap = 0;  ///< index of the Vulkan memory heap
+};
+
+/// Memory of one object.
+struct Allocation {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::uint64_t bytes = 0;
+    std::uint32_t heap = 0;
 };
 
 /// The device. Not thread-safe. It never submits, waits or owns a queue: that is its user's
@@ -164,18 +174,23 @@ class Device {
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     void beginLabel(VkCommandBuffer commands, const std::string& name) const;
     void endLabel(VkCommandBuffer commands) const;
-    /// Memory for an object; refuses what does not fit with sizes and limits in the message.
-    /// `properties` returns the chosen type's.
-    VkDeviceMemory allocate(const VkMemoryRequirements& needed, MemoryKind kind, bool address,
-                            const std::string& object);
+    /// Memory for an object; refuses what does not fit, with sizes and limits in the message.
+    Allocation allocate(const VkMemoryRequirements& needed, MemoryKind kind, bool hasAddress,
+                        const std::string& object);
+    /// What the device supports for such an image; VK_ERROR_FORMAT_NOT_SUPPORTED if nothing.
+    VkResult imageLimits(const VkImageCreateInfo& info, VkImageFormatProperties& limits) const;
     const std::shared_ptr<ObjectRegistry>& registry() const { return mRegistry; }
 
   private:
-    struct Debug;  // instance functions of VK_EXT_debug_utils and the collected messages
+    struct Debug;  // the debug messenger and what it has collected
     Device();
-    void initialize(PFN_vkGetInstanceProcAddr loader, const std::filesystem::path& cacheFile);
-    void readLimits(PFN_vkGetInstanceProcAddr loader);
+    void createInstance(const DeviceOptions& options);
+    void createDevice(const DeviceOptions& options);
+    void createMessenger();
+    void initialize(const std::filesystem::path& cacheFile);
+    void readLimits();
     void loadPipelineCache();
+    std::uint32_t findMemoryType(std::uint32_t typeBits, MemoryKind kind) const;
 
     Log mLog;
     DeviceInfo mInfo;
@@ -185,6 +200,7 @@ class Device {
     VkQueue mQueue = VK_NULL_HANDLE;
     std::uint32_t mQueueFamily = 0;
     bool mIsOwner = false;
+    std::unique_ptr<InstanceFunctions> mFunctions;
     std::unique_ptr<VolkDeviceTable> mTable;
     std::unique_ptr<Debug> mDebug;
     Limits mLimits;

@@ -5,6 +5,7 @@
 
 #include <gpu/device.hpp>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -30,14 +31,17 @@ class ObjectRegistry {
   public:
     ObjectRegistry(VkDevice device, const VolkDeviceTable& vk) : mDevice(device), mVk(&vk) {}
 
-    /// `handles` are destroyed in their order.
-    std::uint64_t add(ObjectInfo info, std::vector<OwnedHandle> handles);
+    std::uint64_t add(const std::string& kind, const std::string& name);
+    /// Adds a handle to an object; they are destroyed in reverse order, memory last.
+    void addHandle(std::uint64_t id, OwnedHandle handle);
+    void addMemory(std::uint64_t id, const Allocation& allocation, MemoryKind kind);
     void release(std::uint64_t id);
     std::uint64_t beginFrame() { return ++mBegun; }
     void retireFrame(std::uint64_t serial);
     bool isFrameOpen() const { return mBegun > mRetired; }
     std::vector<ObjectInfo> objects() const;
-    std::uint64_t allocatedBytes() const { return mBytes; }
+    std::uint64_t allocatedBytes() const;
+    std::uint64_t allocatedBytes(std::uint32_t heap) const { return mHeapBytes[heap]; }
     std::uint32_t allocations() const { return mAllocations; }
     /// Frees everything; later calls do nothing. Returns the names of those that still lived.
     std::vector<std::string> close();
@@ -57,7 +61,7 @@ class ObjectRegistry {
     std::uint64_t mNextId = 1;
     std::uint64_t mBegun = 0;
     std::uint64_t mRetired = 0;
-    std::uint64_t mBytes = 0;
+    std::array<std::uint64_t, VK_MAX_MEMORY_HEAPS> mHeapBytes{};
     std::uint32_t mAllocations = 0;
     bool mIsClosed = false;
 };
@@ -66,11 +70,15 @@ class ObjectRegistry {
 class ObjectOwner {
   public:
     ObjectOwner() = default;
-    ObjectOwner(Device& device, ObjectInfo info, std::vector<OwnedHandle> handles);
+    ObjectOwner(Device& device, const std::string& kind, const std::string& name);
     ~ObjectOwner() { reset(); }
     ObjectOwner(ObjectOwner&& other) noexcept;
     ObjectOwner& operator=(ObjectOwner&& other) noexcept;
     explicit operator bool() const { return mRegistry != nullptr; }
+    void add(OwnedHandle handle) { mRegistry->addHandle(mId, handle); }
+    void add(const Allocation& allocation, MemoryKind kind) {
+        mRegistry->addMemory(mId, allocation, kind);
+    }
     void reset();
 
   private:

@@ -90,11 +90,11 @@ class Pipeline {
     explicit operator bool() const { return static_cast<bool>(mOwner); }
 
   protected:
-    struct Layouts;
     Pipeline() = default;
     void describe(const std::string& name, const std::vector<Binding>& bindings,
                   std::uint32_t pushConstantBytes, VkShaderStageFlags stages);
-    Layouts makeLayouts(Device& device);
+    void makeLayout(Device& device);
+    void adopt(Device& device, VkResult result, VkPipelineBindPoint bindPoint);
 
     std::string mName;
     VkPipeline mHandle = VK_NULL_HANDLE;

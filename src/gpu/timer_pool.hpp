@@ -15,7 +15,8 @@ struct ScopeTime {
 };
 
 /// Timestamps of one frame; with several frames in flight use one pool for each. On a device
-/// without timestamps every time is 0. Scopes may nest.
+/// without timestamps every time is 0. Scopes may nest
+/// and lie outside rendering.
 class TimerPool {
   public:
     explicit TimerPool(Device& device, const std::string& name = "timers",
@@ -33,6 +34,7 @@ class TimerPool {
     double readTotalMs() const;
 
   private:
+    void write(Commands& commands, std::size_t query);
     std::vector<std::uint64_t> readTicks() const;
     double toMs(std::uint64_t first, std::uint64_t last) const;
 
