@@ -5,6 +5,8 @@
 #include <core/image.hpp>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace brume {
 
@@ -12,17 +14,23 @@ namespace brume {
 /// formats (EXR, HDR) as linear; grey becomes RGB, alpha is dropped. Throws an input Error.
 Image readImage(const std::filesystem::path& file);
 
-/// Reads an image of one to four channels as RGBA floats without any colour conversion, row-major from the top left
-/// (missing: green and blue repeat red, alpha is 1). For textures. Throws an input Error.
+/// Reads an image of one to four channels as RGBA floats without any colour conversion, row-major
+/// from the top left (missing: green and blue repeat red, alpha is 1), alpha not multiplied into
+/// the colour. For textures of at most 2^25 texels. Throws an input Error.
 std::vector<vec4> readRgba(const std::filesystem::path& file, int& width, int& height);
 
-/// The same from a file held in memory (e.g. embedded in a .glb); `name` is used in messages.
-std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::string& name, int& width, int& height);
+/// The same from a file held in memory (PNG or JPEG, e.g. embedded in a .glb); `name` is used in
+/// messages.
+std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::string& name,
+                           int& width, int& height);
 
 /// Writes by extension: .exr linear float, .png 8-bit sRGB. The PNG's tone curve is toneMap() and
-/// is stated in the file's ImageDescription. The file appears whole or not at all (written beside, then renamed).
-/// Throws an Error of kind Failure, of kind Input for another extension.
+/// is stated in the file's ImageDescription. The file appears whole or not at all (written beside,
+/// then renamed). Throws an Error of kind Failure, of kind Input for another extension.
 void writeImage(const std::filesystem::path& file, const Image& image);
+
+/// The sRGB transfer curve, decoding: [0, 1] to [0, 1] (IEC 61966-2-1).
+double linearFromSrgb(double x);
 
 /// The tone curve of PNG output: linear up to 0.8, above it a shoulder 1 - 0.2/(1 + (x - 0.8)/0.2)
 /// that reaches 1 at infinity, per channel. Continuous with its first derivative.

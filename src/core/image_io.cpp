@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <core/error.hpp>
+#include <core/image_io.hpp>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+namespace brume {
+namespace {
+
+constexpr const char* kReading = "reading image";
+constexpr const char* kWriting = "writing image";
+
+/// Larger pictures are refused before any memory is taken: headers of broken files claim anything.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+constexpr std::int64_t kMaxTexels = std::int64_t{1} << 25;
+
+constexpr const char* kToneCurveText =
+    "Brume: linear radiance x, per channel x up to 0.8, above it 1 - 0.2 / (1 + (x - 0.8) / 0.2), "
+    "then the sRGB transfer curve";
+
+double srgbFromLinear(double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+
+/// An image file that is open and whose header is plausible.
+struct OpenImage {
+    std::unique_ptr<OIIO::ImageInput> input;
+    int width = 0;
+    int height = 0;
+    int channelCount = 0;
+    bool isFloat = false;
+};
+
+OpenImage openImage(const std::string& file, OIIO::Filesystem::IOProxy* proxy,
+                    const std::string& name, std::int64_t maxPixels) {
+    // Alpha must not be multiplied into the colour: it means coverage, not light.
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;
+    OpenImage image;
+    image.input = OIIO::ImageInput::open(file, &config, proxy);
+    if (!image.input) {
+        const std::string reason = OIIO::geterror();
+        throw inputError(kReading, name, reason.empty() ? "unknown image format" : reason);
+    }
+    const OIIO::ImageSpec& spec = image.input->spec();
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channelCount = spec.nchannels;
+    image.isFloat = spec.format.basetype == OIIO::TypeDesc::HALF ||
+                    spec.format.basetype == OIIO::TypeDesc::FLOAT ||
+                    spec.format.basetype == OIIO::TypeDesc::DOUBLE;
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+        throw inputError(kReading, name, "not a two-dimensional picture");
+    if (std::int64_t{spec.width} * spec.height > maxPixels)
+        throw inputError(kReading, name,
+                         fmt::format("{} x {} pixels, at most {} are allowed", spec.width,
+                                     spec.height, maxPixels));
+    return image;
+}
+
+/// Fills `values`, `stride` floats apart, with the first `channelCount` channels.
+void readChannels(OpenImage& image, const std::string& name, int channelCount, int stride,
+                  float* values) {
+    const auto pixelBytes = static_cast<OIIO::stride_t>(stride * sizeof(float));
+    if (!image.input->read_image(0, 0, 0, channelCount, OIIO::TypeDesc::FLOAT, values, pixelBytes,
+                                 pixelBytes * image.width))
+        throw inputError(kReading, name, image.input->geterror());
+}
+
+std::vector<vec4> readTexels(OpenImage image, const std::string& name, int& width, int& height) {
+    const int channelCount = std::min(image.channelCount, 4);
+    std::vector<vec4> texels(static_cast<std::size_t>(image.width) * image.height, vec4(1));
+    readChannels(image, name, channelCount, 4, &texels[0][0]);
+    if (channelCount == 1)
+        for (vec4& t : texels) t = vec4(t.x, t.x, t.x, 1);
+    else if (channelCount == 2)
+        for (vec4& t : texels) t = vec4(t.x, t.x, t.x, t.y);
+    width = image.width;
+    height = image.height;
+    return texels;
+}
+
+/// OpenImageIO chooses its reader by the extension of a name.
+const char* recogniseFormat(const std::vector<unsigned char>& bytes, const std::string& name) {
+    const auto startsWith = [&bytes](std::initializer_list<unsigned char> magic) {
+        return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+    };
+    if (startsWith({0x89, 'P', 'N', 'G'})) return "memory.png";
+    if (startsWith({0xff, 0xd8, 0xff})) return "memory.jpg";
+    throw inputError(kReading, name, "unknown image format, allowed are PNG and JPEG");
+}
+
+void requireFile(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored))
+        throw inputError(kReading, file.string(), "no such file");
+}
+
+std::vector<unsigned char> encodePixels(const Image& image) {
+    std::vector<unsigned char> bytes;
+    bytes.reserve(image.pixels.size() * 3);
+    for (const vec3& pixel : image.pixels)
+        for (int channel = 0; channel < 3; ++channel) {
+            const double x = srgbFromLinear(toneMap(pixel[channel]));
+            bytes.push_back(static_cast<unsigned char>(std::lround(255.0 * x)));
+        }
+    return bytes;
+}
+
+void writePixels(const std::filesystem::path& file, const Image& image, const char* format,
+                 bool isFloat) {
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output) throw failure(kWriting, file.string(), OIIO::geterror());
+    OIIO::ImageSpec spec(image.width, image.height, 3,
+                         isFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    spec["oiio:ColorSpace"] = isFloat ? "Linear" : "sRGB";
+    if (isFloat)
+        spec["compression"] = "zip";
+    else
+        spec["ImageDescription"] = kToneCurveText;
+    bool isWritten = output->open(file.string(), spec);
+    if (isWritten && isFloat)
+        isWritten = output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
+    else if (isWritten)
+        isWritten = output->write_image(OIIO::TypeDesc::UINT8, encodePixels(image).data());
+    if (!isWritten || !output->close()) throw failure(kWriting, file.string(), output->geterror());
+}
+
+}  // namespace
+
+double linearFromSrgb(double x) {
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+float toneMap(float radiance) {
+    if (!(radiance > 0)) return 0;  // NaN too
+    if (radiance <= 0.8f) return radiance;
+    return 1.0f - 0.2f / (1.0f + (radiance - 0.8f) / 0.2f);
+}
+
+Image readImage(const std::filesystem::path& file) {
+    requireFile(file);
+    OpenImage open = openImage(file.string(), nullptr, file.string(), kMaxPixels);
+    Image image(open.width, open.height);
+    const int channelCount = open.channelCount < 3 ? 1 : 3;
+    readChannels(open, file.string(), channelCount, 3, &image.pixels[0][0]);
+    for (vec3& pixel : image.pixels) {
+        if (channelCount == 1) pixel = vec3(pixel.x);
+        if (!open.isFloat)
+            for (int channel = 0; channel < 3; ++channel)
+                pixel[channel] = static_cast<float>(linearFromSrgb(pixel[channel]));
+    }
+    return image;
+}
+
+std::vector<vec4> readRgba(const std::filesystem::path& file, int& width, int& height) {
+    requireFile(file);
+    return readTexels(openImage(file.string(), nullptr, file.string(), kMaxTexels), file.string(),
+                      width, height);
+}
+
+std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::string& name,
+                           int& width, int& height) {
+    const char* memoryName = recogniseFormat(bytes, name);
+    OIIO::Filesystem::IOMemReader reader(const_cast<unsigned char*>(bytes.data()), bytes.size());
+    return readTexels(openImage(memoryName, &reader, name, kMaxTexels), name, width, height);
+}
+
+void writeImage(const std::filesystem::path& file, const Image& image) {
+    const std::string extension = file.extension().string();
+    if (extension != ".exr" && extension != ".png")
+        throw inputError(kWriting, file.string(), "unknown extension, allowed are .exr and .png");
+    if (image.isEmpty()) throw inputError(kWriting, file.string(), "the image has no pixels");
+    std::filesystem::path part = file;
+    part += ".part";
+    std::error_code error;
+    try {
+        writePixels(part, image, extension == ".exr" ? "openexr" : "png", extension == ".exr");
+    } catch (const Error&) {
+        std::filesystem::remove(part, error);
+        throw;
+    }
+    std::filesystem::rename(part, file, error);
+    if (error) throw failure(kWriting, file.string(), error.message());
+}
+
+}  // namespace brume
