@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <reference/lighting.hpp>
+
+#include <core/phase.hpp>
+
+#include <algorithm>
+
+namespace brume::reference {
+namespace {
+
+/// A surface does not shadow itself or what it touches within this distance (times the size of the coordinates).
+constexpr double kContactDistance = 1e-10;
+
+double computeSpotFactor(const scene::Light& light, const dvec3& travel) {
+    const double inner = std::cos(light.innerAngle), outer = std::cos(light.outerAngle);
+    const double cosine = glm::dot(travel, light.direction);
+    if (!(inner > outer)) return cosine >= outer ? 1 : 0;
+    const double s = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+    return s * s;
+}
+
+double evaluatePhase(scene::PhaseType type, double g, double cosTheta) {
+    switch (type) {
+        case scene::PhaseType::Isotropic: return phaseIsotropic<double>();
+        case scene::PhaseType::Rayleigh: return phaseRayleigh(cosTheta);
+        case scene::PhaseType::HenyeyGreenstein: break;
+    }
+    return phaseHenyeyGreenstein(cosTheta, g);
+}
+
+/// Real roots of a t^2 + 2 b t + c.
+void appendRoots(double a, double b, double c, std::vector<double>& roots) {
+    const double discriminant = b * b - a * c;
+    if (discriminant < 0) return;
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    if (a != 0) roots.push_back(q / a);
+    if (q != 0) roots.push_back(c / q);
+}
+
+}  // namespace
+
+Lighting::Lighting(const scene::Scene& scene, const MediaSet& media, const Occlusion& occlusion,
+                   bool withShadows)
+    : mOcclusion(occlusion), mWithShadows(withShadows) {
+    for (const scene::Light& light : scene.lights) {
+        if (light.type == scene::LightType::Ambient) mAmbient += light.color;
+        if (light.type == scene::LightType::Ambient || light.color == dvec3(0)) continue;
+        mLights.push_back(light);
+        mHasPoints = mHasPoints || light.type != scene::LightType::Directional;
+        mHasShadows = mHasShadows || castsShadows(light);
+    }
+    for (std::uint32_t i = 0; i < media.sourceCount(); ++i) {
+        const Source& source = media.source(i);
+        const bool hasG = source.phase == scene::PhaseType::HenyeyGreenstein;
+        const Phase phase{source.phase, hasG ? source.g : 0};
+        const auto found = std::find(mPhases.begin(), mPhases.end(), phase);
+        mClassOfSource.push_back(static_cast<std::uint32_t>(found - mPhases.begin()));
+        if (found == mPhases.end()) mPhases.push_back(phase);
+        mHasScattering = mHasScattering || source.scattering != dvec3(0);
+    }
+}
+
+bool Lighting::castsShadows(const scene::Light& light) const {
+    return mWithShadows && light.shadow != "none";
+}
+
+Lighting::Arrival Lighting::arrive(const scene::Light& light, const dvec3& position) {
+    if (light.type == scene::LightType::Directional) return {light.color, light.direction};
+    const dvec3 fromLight = position - light.position;
+    const double distance = glm::length(fromLight);
+    const dvec3 travel = distance > 0 ? fromLight / distance : dvec3(0);
+    const double d = std::max(distance, light.radius);
+    const double factor =
+        light.type == scene::LightType::Spot ? computeSpotFactor(light, travel) : 1.0;
+    return {light.color * (factor / (d * d)), travel, distance};
+}
+
+dvec3 Lighting::transmittance(const Arrival& arrival, const dvec3& position, double tMin,
+                              std::uint32_t except) const {
+    if (!(arrival.distance > 0)) return dvec3(1);
+    return mOcclusion.transmittance({position, -arrival.travel}, tMin, arrival.distance, except);
+}
+
+void Lighting::scatter(const dvec3& position, const dvec3& direction,
+                       std::span<dvec3> perClass) const {
+    std::fill(perClass.begin(), perClass.end(), mAmbient);
+    for (const scene::Light& light : mLights) {
+        Arrival arrival = arrive(light, position);
+        if (arrival.irradiance == dvec3(0)) continue;
+        if (castsShadows(light))
+            arrival.irradiance *= transmittance(arrival, position, 0, kNoTriangle);
+        const double cosTheta = std::clamp(-glm::dot(arrival.travel, direction), -1.0, 1.0);
+        for (std::size_t i = 0; i < perClass.size(); ++i)
+            perClass[i] += evaluatePhase(mPhases[i].first, mPhases[i].second, cosTheta) *
+                           arrival.irradiance;
+    }
+}
+
+dvec3 Lighting::illuminate(const SurfacePoint& point) const {
+    const dvec3 size = glm::max(dvec3(1), glm::abs(point.position));
+    const double tMin = kContactDistance * std::max({size.x, size.y, size.z});
+    dvec3 sum = mAmbient;
+    for (const scene::Light& light : mLights) {
+        const Arrival arrival = arrive(light, point.position);
+        const double cosine = -glm::dot(point.normal, arrival.travel);
+        if (!(cosine > 0) || arrival.irradiance == dvec3(0)) continue;
+        const dvec3 visible = castsShadows(light)
+                                  ? transmittance(arrival, point.position, tMin, point.triangle)
+                                  : dvec3(1);
+        sum += visible * arrival.irradiance * (cosine / kPi);
+    }
+    return sum;
+}
+
+void Lighting::collectBreaks(const scene::Ray& ray, std::vector<double>& breaks) const {
+    for (const scene::Light& light : mLights) {
+        if (light.type == scene::LightType::Directional) continue;
+        const dvec3 o = ray.origin - light.position;
+        const double closest = -glm::dot(o, ray.direction);
+        breaks.push_back(closest);
+        appendRoots(1, -closest, glm::dot(o, o) - light.radius * light.radius, breaks);
+        if (light.type != scene::LightType::Spot) continue;
+        const double oa = glm::dot(o, light.direction), da = glm::dot(ray.direction, light.direction);
+        for (const double angle : {light.innerAngle, light.outerAngle}) {
+            const double c2 = std::cos(angle) * std::cos(angle);
+            appendRoots(da * da - c2, oa * da + c2 * closest, oa * oa - c2 * glm::dot(o, o), breaks);
+        }
+    }
+}
+
+}  // namespace brume::reference
