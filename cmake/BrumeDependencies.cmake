@@ -6,7 +6,9 @@ find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
-find_package(OpenImageIO REQUIRED)
+# By pkg-config: OpenImageIO's own CMake files also demand its tools and the Python bindings of Imath.
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)
+add_library(OpenImageIO::OpenImageIO ALIAS PkgConfig::OpenImageIO)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(Vulkan REQUIRED)  # headers only: volk loads the functions
