@@ -6,6 +6,7 @@ option(BRUME_ASSERTS "Check internal assertions" ON)
 # give the same bits as the shaders, which never fuse a multiply with an add.
 add_library(brume_flags INTERFACE)
 target_compile_options(brume_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                                             -Wno-missing-field-initializers
                                              -ffp-contract=off)
 if(BRUME_WERROR)
   target_compile_options(brume_flags INTERFACE -Werror)
