@@ -21,8 +21,8 @@ class AssertionError : public std::logic_error {
         const auto& brumeLeft = (a);                                                             \
         const auto& brumeRight = (b);                                                            \
         if (!(brumeLeft op brumeRight))                                                          \
-            throw ::brume::AssertionError(fmt::format("{}:{}: " #a " " #op " " #b " ({} and {})", \
-                                                      __FILE__, __LINE__, brumeLeft, brumeRight)); \
+            throw ::brume::AssertionError(fmt::format("{}:{}: {} ({} and {})", __FILE__, __LINE__, \
+                                                      #a " " #op " " #b, brumeLeft, brumeRight)); \
     } while (false)
 #else
 #define BRUME_ASSERT_OP(a, op, b) static_cast<void>(0)
