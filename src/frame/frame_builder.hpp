@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,7 @@ class PassBuilder {
     friend class PassResources;
     struct Use {
         bool isImage = false;
-        std::uint32_t index = 0;
+        std::uint32_t index = 0;  // of the frame's resources
         Access access = Access::ComputeRead;
         bool isRead = false;
         bool isWrite = false;
@@ -169,7 +170,6 @@ class FrameBuilder {
         VkAccessFlags2 writeAccess = 0;
         VkPipelineStageFlags2 readStages = 0;
         std::vector<Visible> visible;
-        bool isUsed = false;
     };
     struct Resource {
         bool isImage = false;
@@ -182,25 +182,43 @@ class FrameBuilder {
         std::size_t firstPass = ~std::size_t{0};
         std::size_t lastPass = 0;
         bool isWritten = false;
+        bool isStarted = false;  // its first layout change is recorded
         const std::string& name() const { return isImage ? imageDesc.name : bufferDesc.name; }
+        const void* object() const {
+            return isImage ? static_cast<const void*>(image) : static_cast<const void*>(buffer);
+        }
+    };
+    // All uses of one resource by one pass.
+    struct Demand {
+        std::uint32_t resource = 0;
+        VkPipelineStageFlags2 stages = 0;
+        VkAccessFlags2 access = 0;
+        VkAccessFlags2 writeAccess = 0;
+        VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+        bool isRead = false;
     };
     struct Barriers;
-    struct Demand;
 
+    void requireDeclared(std::size_t pass, bool isImage, std::uint32_t index) const;
     void findLives();
     void materialize(std::size_t pass);
     void giveBack(std::size_t pass);
-    void checkReads(const PassBuilder& pass) const;
-    std::vector<Demand> demands(const PassBuilder& pass) const;
+    void checkReads(const PassBuilder& pass);
+    std::vector<Demand> demandsOf(const PassBuilder& pass) const;
     void synchronize(const Demand& demand, Barriers& barriers);
+    void changeLayout(const Demand& demand, State& state, Barriers& barriers);
+    void orderMemory(const Demand& demand, State& state, Barriers& barriers);
     void recordPass(gpu::Commands& commands, std::size_t pass);
-    State& stateOf(const Resource& resource);
+    void recordRaster(gpu::Commands& commands, const PassBuilder& pass,
+                      const PassResources& resources);
+    void finish(gpu::Commands& commands);
 
     ResourcePool* mPool;
     std::deque<PassBuilder> mPasses;
     std::vector<Resource> mResources;
-    std::vector<std::pair<const void*, State>> mStates;  // by Vulkan handle
+    std::map<const void*, State> mStates;  // by gpu::Buffer or gpu::Image
     std::vector<std::pair<std::uint32_t, Access>> mFinal;
+    bool mIsExecuted = false;
 };
 
 }  // namespace brume::frame

@@ -2,6 +2,7 @@
 // The pipeline cache on disk: 8 bytes "BRUMEPC1", the FNV-1a hash of the data, Vulkan's data.
 #include <volk.h>
 // volk.h goes first.
+#include <fmt/format.h>
 #include <gpu/device.hpp>
 
 #include <cstring>
@@ -47,7 +48,7 @@ void writeCache(const std::filesystem::path& file, const std::vector<char>& data
     std::error_code error;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
     std::filesystem::path beside = file;
-    beside += "." + std::to_string(std::random_device()()) + ".tmp";
+    beside += fmt::format(".{:08x}.tmp", std::random_device()());
     {
         std::ofstream stream(beside, std::ios::binary);
         const std::uint64_t hash = hashOf(data.data(), data.size());
