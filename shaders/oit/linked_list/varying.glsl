@@ -4,6 +4,7 @@
 // rule with three points gives the optical depth exactly.
 #ifndef BRUME_OIT_LINKED_LIST_VARYING_GLSL
 #define BRUME_OIT_LINKED_LIST_VARYING_GLSL
+#include "../../common/density.glsl"
 
 // Gauss-Legendre nodes and weights on [0, 1], and the integrals of the node polynomials up to each
 // node (the Butcher matrix of the three-stage Gauss method).
@@ -15,90 +16,10 @@ const mat3 kUpTo = mat3(  // column k: integral from 0 to node k
     5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0,
     5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0);
 
-layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
-
 struct Nodes {
     vec3 extinction[3];
     vec3 source[3];
 };
-
-// The ray in the local coordinates of a box.
-struct LocalRay {
-    vec3 origin, direction;
-};
-
-LocalRay localRay(BoxData box, VolumeData volume) {
-    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner), volume.indexFromWorld * ray.direction);
-}
-
-// The next distance behind `position` at which the ray crosses a plane between cells.
-float nextPlane(BoxData box, LocalRay local, float position) {
-    float nearest = kFar;
-    for (int axis = 0; axis < 3; ++axis) {
-        float o = local.origin[axis], d = local.direction[axis], size = box.size[axis];
-        if (abs(d) < 1e-30) continue;
-        if (box.kind == kBoxBrick) {
-            float cell = floor(o + d * position), step = d > 0.0 ? 1.0 : -1.0;
-            float plane = d > 0.0 ? cell + 1.0 : ceil(o + d * position) - 1.0;
-            float t = (plane - o) / d;
-            // Standing on the plane within rounding: take the one behind it.
-            float slack = 2e-6 / abs(d) + 2e-7 * position;
-            if (t <= position + slack) t = (plane + step - o) / d;
-            nearest = min(nearest, t);
-        } else if (box.kind == kBoxSoft) {
-            float inner = (1.0 - o) / d, outer = (size - 1.0 - o) / d;
-            float slack = 2e-7 * position;
-            if (inner > position + slack) nearest = min(nearest, inner);
-            if (outer > position + slack) nearest = min(nearest, outer);
-        }
-    }
-    return nearest;
-}
-
-// Values at the corners of the cell around local point `p`, x fastest.
-void loadCell(BoxData box, vec3 p, out vec4 low, out vec4 high, out vec3 cell) {
-    cell = clamp(floor(p), vec3(0), vec3(7));
-    uvec3 c = uvec3(cell);
-    uint base = box.valueOffset + (c.z * 9u + c.y) * 9u + c.x;
-    BrickValues values = BrickValues(frame.brickValues);
-    low = vec4(values.at[base], values.at[base + 1u], values.at[base + 9u], values.at[base + 10u]);
-    high = vec4(values.at[base + 81u], values.at[base + 82u], values.at[base + 90u], values.at[base + 91u]);
-}
-
-float trilinear(vec4 low, vec4 high, vec3 f) {
-    vec4 z = mix(low, high, f.z);
-    vec2 y = mix(z.xy, z.zw, f.y);
-    return mix(y.x, y.y, f.x);
-}
-
-vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
-    if (box.kind == kBoxHard) return vec3(box.value);
-    vec3 densities;
-    if (box.kind == kBoxBrick) {
-        vec4 low, high;
-        vec3 cell;
-        loadCell(box, local.origin + local.direction * t.y, low, high, cell);
-        for (int k = 0; k < 3; ++k)
-            densities[k] = trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
-        return densities;
-    }
-    for (int k = 0; k < 3; ++k) {
-        vec3 p = local.origin + local.direction * t[k];
-        vec3 ramp = clamp(min(p, box.size - p), 0.0, 1.0);
-        densities[k] = box.value * ramp.x * ramp.y * ramp.z;
-    }
-    return densities;
-}
-
-vec3 sphereDensities(SphereData sphere, vec3 t) {
-    if (sphere.profile == kProfileConstant) return vec3(sphere.density);
-    vec3 offset = sphere.center - ray.origin;
-    float middle = dot(offset, ray.direction);
-    vec3 perpendicular = offset - middle * ray.direction;
-    float inverse = 1.0 / (sphere.radius * sphere.radius);
-    vec3 q = max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
-    return sphere.density * q * q;
-}
 
 void addToNodes(inout Nodes nodes, MediumData medium, vec3 tint, vec3 densities, vec3 t, vec3 constantLight) {
     for (int k = 0; k < 3; ++k) {
@@ -132,11 +53,11 @@ Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
         if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
             BoxData box = boxes[index];
             VolumeData volume = volumes[box.volume];
-            densities = boxDensities(box, localRay(box, volume), t);
+            densities = boxDensities(box, localRay(ray, box, volume), t);
             mediumIndex = volume.medium;
         } else {
             SphereData sphere = spheres[index];
-            densities = sphereDensities(sphere, t);
+            densities = sphereDensities(ray, sphere, t);
             mediumIndex = sphere.medium;
             tint = sphere.tint;
         }
@@ -207,7 +128,7 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
             if (end < leave) leave = end, leaving = i;
             if (kBoxes && (open.y >> kKindShift) == kKindBox) {
                 BoxData box = boxes[open.y & kIndexMask];
-                plane = min(plane, nextPlane(box, localRay(box, volumes[box.volume]), position));
+                plane = min(plane, nextPlane(box, localRay(ray, box, volumes[box.volume]), position));
             }
         }
         iterations += 2u * openCount;
@@ -239,7 +160,7 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
                 vec2 t;
                 uint index = entry.y & kIndexMask;
                 if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
-                    LocalRay local = localRay(boxes[index], volumes[boxes[index].volume]);
+                    LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume]);
                     intersectBox(local.origin, local.direction, boxes[index].size, t);
                 } else {
                     intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);

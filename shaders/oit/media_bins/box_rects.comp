@@ -16,5 +16,5 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
     BoxData box = boxes[i];
-    Uvec2Array(push.rects).at[i] = boxRect(box, volumes[box.volume]);
+    Uvec2Array(push.rects).at[i] = tileRect(boxBounds(box, volumes[box.volume]));
 }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The density of media along a ray: what Gauss's nodes ask for.
+#ifndef BRUME_COMMON_DENSITY_GLSL
+#define BRUME_COMMON_DENSITY_GLSL
+#include "camera.glsl"
+
+layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
+
+// The ray in the local coordinates of a box.
+struct LocalRay {
+    vec3 origin, direction;
+};
+
+LocalRay localRay(Ray ray, BoxData box, VolumeData volume) {
+    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner), volume.indexFromWorld * ray.direction);
+}
+
+// The next distance behind `position` at which the ray crosses a plane between cells.
+float nextPlane(BoxData box, LocalRay local, float position) {
+    float nearest = 1e30;
+    for (int axis = 0; axis < 3; ++axis) {
+        float o = local.origin[axis], d = local.direction[axis], size = box.size[axis];
+        if (abs(d) < 1e-30) continue;
+        if (box.kind == kBoxBrick) {
+            float cell = floor(o + d * position), step = d > 0.0 ? 1.0 : -1.0;
+            float plane = d > 0.0 ? cell + 1.0 : ceil(o + d * position) - 1.0;
+            float t = (plane - o) / d;
+            // Standing on the plane within rounding: take the one behind it.
+            float slack = 2e-6 / abs(d) + 2e-7 * position;
+            if (t <= position + slack) t = (plane + step - o) / d;
+            nearest = min(nearest, t);
+        } else if (box.kind == kBoxSoft) {
+            float inner = (1.0 - o) / d, outer = (size - 1.0 - o) / d;
+            float slack = 2e-7 * position;
+            if (inner > position + slack) nearest = min(nearest, inner);
+            if (outer > position + slack) nearest = min(nearest, outer);
+        }
+    }
+    return nearest;
+}
+
+// Values at the corners of the cell around local point `p`, x fastest.
+void loadCell(BoxData box, vec3 p, out vec4 low, out vec4 high, out vec3 cell) {
+    cell = clamp(floor(p), vec3(0), vec3(7));
+    uvec3 c = uvec3(cell);
+    uint base = box.valueOffset + (c.z * 9u + c.y) * 9u + c.x;
+    BrickValues values = BrickValues(frame.brickValues);
+    low = vec4(values.at[base], values.at[base + 1u], values.at[base + 9u], values.at[base + 10u]);
+    high = vec4(values.at[base + 81u], values.at[base + 82u], values.at[base + 90u], values.at[base + 91u]);
+}
+
+float trilinear(vec4 low, vec4 high, vec3 f) {
+    vec4 z = mix(low, high, f.z);
+    vec2 y = mix(z.xy, z.zw, f.y);
+    return mix(y.x, y.y, f.x);
+}
+
+vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
+    if (box.kind == kBoxHard) return vec3(box.value);
+    vec3 densities;
+    if (box.kind == kBoxBrick) {
+        vec4 low, high;
+        vec3 cell;
+        loadCell(box, local.origin + local.direction * t.y, low, high, cell);
+        for (int k = 0; k < 3; ++k)
+            densities[k] = trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
+        return densities;
+    }
+    for (int k = 0; k < 3; ++k) {
+        vec3 p = local.origin + local.direction * t[k];
+        vec3 ramp = clamp(min(p, box.size - p), 0.0, 1.0);
+        densities[k] = box.value * ramp.x * ramp.y * ramp.z;
+    }
+    return densities;
+}
+
+vec3 sphereDensities(Ray ray, SphereData sphere, vec3 t) {
+    if (sphere.profile == kProfileConstant) return vec3(sphere.density);
+    vec3 offset = sphere.center - ray.origin;
+    float middle = dot(offset, ray.direction);
+    vec3 perpendicular = offset - middle * ray.direction;
+    float inverse = 1.0 / (sphere.radius * sphere.radius);
+    vec3 q = max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
+    return sphere.density * q * q;
+}
+
+#endif
