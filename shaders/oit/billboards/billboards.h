@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media drawn as screen-aligned quads; C++ and GLSL.
+#ifndef BRUME_SHADERS_OIT_BILLBOARDS_H
+#define BRUME_SHADERS_OIT_BILLBOARDS_H
+#include "../../common/shared.h"
+
+BRUME_STRUCTS_BEGIN
+
+struct BillboardPush {
+    uint meshIndex;  // surface passes: which mesh is drawn; first, where mesh.vert looks for it
+    uint count;      // media: sphereCount + boxCount
+    uint64_t keys;   // sort: uint[count]
+    uint64_t order;  // uint[count], indices in drawing order; 0: as they come
+};
+
+BRUME_STRUCTS_END
+#endif

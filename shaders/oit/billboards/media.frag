@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact radiance and transmittance of one medium by itself, for blending with "over".
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../common/lighting.glsl"
+#include "../../common/density.glsl"
+#include "../../common/exponential.glsl"
+#include "../../common/intersect.glsl"
+
+layout(constant_id = 0) const bool kBoxes = true;
+layout(constant_id = 1) const bool kVarying = true;
+layout(constant_id = 2) const bool kColoured = true;
+layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
+layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
+layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+layout(location = 0) flat in vec4 centerRadius;
+layout(location = 1) flat in vec4 tintDensity;
+layout(location = 2) flat in uvec3 kind;
+layout(location = 0) out vec4 color;
+
+const vec3 kNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
+const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
+
+// Integral of the density over [t.x, t.y].
+float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
+    LocalRay local = localRay(ray, box, volume);
+    float sum = 0.0, position = t.x;
+    for (int i = 0; i < 64 && position < t.y; ++i) {
+        float target = min(nextPlane(box, local, position), t.y);
+        float distance = target - position;
+        sum += distance * dot(kWeights, boxDensities(box, local, position + distance * kNodes));
+        position = target;
+    }
+    return sum;
+}
+
+void main() {
+    Ray ray = makeRay(gl_FragCoord.xy);
+    float limit = texelFetch(opaqueT, ivec2(gl_FragCoord.xy), 0).x;
+    vec2 t;
+    float densityLength;
+    if (kBoxes && kind.z != 0u) {
+        BoxData box = boxes[kind.z - 1u];
+        VolumeData volume = volumes[box.volume];
+        LocalRay local = localRay(ray, box, volume);
+        if (!intersectBox(local.origin, local.direction, box.size, t) || t.x >= limit) discard;
+        t.y = min(t.y, limit);
+        densityLength = boxDensityLength(ray, box, volume, t);
+    } else {
+        SphereData sphere = SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u, kind.y);
+        if (!intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t) || t.x >= limit) discard;
+        t.y = min(t.y, limit);
+        densityLength = (t.y - t.x) * (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x + (t.y - t.x) * kNodes))
+                                                : sphere.density);
+    }
+    MediumData medium = media[kind.x];
+    vec3 tint = kBoxes && kind.z != 0u ? vec3(1) : tintDensity.xyz;
+    vec3 depth = medium.extinction * densityLength;
+    vec3 decay = kColoured ? exp(-depth) : vec3(exp(-depth.x));
+    vec3 middle = ray.origin + ray.direction * (0.5 * (t.x + t.y));
+    vec3 light = scatteredRadiance(medium, middle, ray.direction);
+    vec3 source = tint * (medium.extinction * medium.albedo * light + medium.emission) * densityLength;
+    color.rgb = source * meanDecay(depth, decay);
+    color.a = 1.0 - (decay.x + decay.y + decay.z) / 3.0;
+}
