@@ -24,21 +24,25 @@ struct Emitter {
     std::vector<Burst> bursts;
     double duration = kInfinity;  ///< s; rate and bursts stop afterwards
     EmitterShape shape = EmitterShape::Point;
-    dvec3 position{0};     ///< centre of the shape, effect space
-    double radius = 0;     ///< sphere, disc
-    dvec3 size{0};         ///< box, full edge lengths
-    dvec2 speed{0};        ///< m/s, [low, high]
+    dvec3 position{0};         ///< centre of the shape, effect space
+    double radius = 0;         ///< sphere (births in its volume), disc (births on its area)
+    dvec3 normal{0, 1, 0};     ///< disc, unit
+    dvec3 size{0};             ///< box, full edge lengths
+    dvec2 speed{0};            ///< m/s, [low, high]
     dvec3 direction{0, 1, 0};  ///< unit
     double spread = 0;         ///< half angle of the cone around direction, radians
     dvec2 lifetime{1};         ///< s, [low, high]
 };
 
-/// One simulation module: its type name and its settings as numbers (scalars have size 1, vectors 3), checked
-/// against the module's own table (particles/modules) when the effect is loaded for simulation.
+/// One simulation module: its type name and its settings, checked against the module's own table
+/// (particles/modules) when the effect is loaded for simulation. All numbers are finite.
 struct ModuleSettings {
     std::string type;
-    std::map<std::string, std::vector<double>> values;
-    std::string where;  ///< file:line:column, for messages
+    std::map<std::string, std::vector<double>>
+        values;  ///< numbers, size 1; vectors; true and false, 1 and 0
+    std::map<std::string, std::string> texts;    ///< strings
+    std::map<std::string, std::string> whereOf;  ///< file:line:column of each key's value
+    std::string where;                           ///< file:line:column of the module, for messages
 };
 
 /// Piecewise linear over normalised age in [0, 1]; keys sorted, at least one.

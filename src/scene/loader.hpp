@@ -8,7 +8,8 @@
 namespace brume::scene {
 
 /// Reads a scene and everything it names except volumes (their paths are checked when they are
-/// loaded): effects, glTF meshes, textures, environment. Throws an input Error with file:line:column.
+/// loaded): effects, glTF meshes, textures, environment. Throws an input Error with
+/// file:line:column.
 Scene loadScene(const std::filesystem::path& file, const Log& log);
 
 /// The same from text; `file` gives the folder of relative paths and the name in messages.
@@ -17,7 +18,8 @@ Scene parseScene(const std::string& text, const std::filesystem::path& file, con
 Effect loadEffect(const std::filesystem::path& file, const Log& log);
 Effect parseEffect(const std::string& text, const std::filesystem::path& file, const Log& log);
 
-/// The JSON Schemas the files are checked against (the text of docs/schema/*.json, embedded at build time).
+/// The JSON Schemas the files are checked against (the text of docs/schema/*.json, embedded at
+/// build time).
 const char* sceneSchema();
 const char* effectSchema();
 

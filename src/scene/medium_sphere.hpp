@@ -13,8 +13,9 @@ struct MediumSphere {
     float radius = 0;
     float density = 0;
     vec3 tint{1};
-    std::uint32_t medium = 0;   ///< index into Scene::media
-    std::uint32_t id = 0;       ///< unique in the frame and stable when the order changes: breaks ties between equal distances
+    std::uint32_t medium = 0;  ///< index into Scene::media
+    std::uint32_t id = 0;  ///< unique in the frame and stable when the order changes: breaks ties
+                           ///< between equal distances
     Profile profile = Profile::Constant;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as plain structs: what the files of docs/formats.md say, with every default filled in and
-// every path made absolute. No Vulkan, no rendering. Lengths in metres, angles in radians,
+// The scene as plain structs: what the files of docs/formats.md say, with every default filled in
+// and every path made absolute. No Vulkan, no rendering. Lengths in metres, angles in radians,
 // extinction in 1/m, linear radiance.
 #pragma once
 
@@ -26,7 +26,8 @@ struct Camera {
     dvec3 up{0, 1, 0};
     double verticalFov = radians(40);  ///< perspective: full angle, (0, pi)
     double height = 1;                 ///< orthographic: world height of the image
-    double near = 0.01;  ///< surfaces nearer than this view depth are not seen; media start at the camera
+    double near =
+        0.01;  ///< surfaces nearer than this view depth are not seen; media start at the camera
 };
 
 struct ImageSettings {
@@ -35,7 +36,8 @@ struct ImageSettings {
     int supersample = 1;  ///< n: each pixel is the mean of n x n samples at sub-pixel centres
 };
 
-/// Linear RGBA texels from the top left; wraps around in both directions; bilinear between texel centres.
+/// Linear RGBA texels from the top left; wraps around in both directions; bilinear between texel
+/// centres.
 struct Texture {
     std::string name;
     int width = 0;
@@ -45,7 +47,8 @@ struct Texture {
 
 struct Background {
     dvec3 radiance{0};
-    /// Latitude-longitude map, +Y up: u = atan2(x, -z) / 2pi + 1/2, v = acos(y) / pi. Null: constant `radiance`.
+    /// Latitude-longitude map, +Y up: u = atan2(x, -z) / 2pi + 1/2, v = acos(y) / pi. Null:
+    /// constant `radiance`.
     std::shared_ptr<const Texture> environment;
     double scale = 1;  ///< of the environment
 };
@@ -53,12 +56,13 @@ struct Background {
 enum class LightType { Ambient, Directional, Point, Spot };
 
 /// `color` is radiance (ambient), irradiance (directional) or intensity (point, spot).
-/// Point and spot: E = I / max(d^2, radius^2). Spot: times s^2, s = clamp((cos - cosOuter) / (cosInner - cosOuter), 0, 1).
+/// Point and spot: E = I / max(d^2, radius^2). Spot: times s^2, s = clamp((cos - cosOuter) /
+/// (cosInner - cosOuter), 0, 1).
 struct Light {
     LightType type = LightType::Ambient;
     dvec3 color{0};
     dvec3 position{0};
-    dvec3 direction{0, -1, 0};  ///< in which the light travels, unit length
+    dvec3 direction{0, -1, 0};        ///< in which the light travels, unit length
     double innerAngle = radians(20);  ///< from the axis
     double outerAngle = radians(30);
     double radius = 0.01;
@@ -76,7 +80,8 @@ struct Material {
     // Thin.
     double coverage = 1;
     dvec3 transmission{0};
-    dvec3 reflected{0};  ///< Lambert albedo of the light that a thin surface sends back on both sides
+    dvec3 reflected{
+        0};  ///< Lambert albedo of the light that a thin surface sends back on both sides
     double collimation = 1;
     // Thin and solid.
     double ior = 1.5;
@@ -84,10 +89,12 @@ struct Material {
     // Solid: homogeneous medium inside a closed mesh.
     dvec3 absorption{0};
     dvec3 scattering{0};
-    // Textures multiply: colour -> albedo (opaque), reflected and transmission (thin); its alpha -> coverage (thin).
+    // Textures multiply: colour -> albedo (opaque), reflected and transmission (thin); its alpha ->
+    // coverage (thin).
     std::shared_ptr<const Texture> colorTexture;
     std::shared_ptr<const Texture> emissionTexture;
-    double alphaCutoff = -1;  ///< >= 0: fragments whose coverage * texture alpha is below do not exist (glTF MASK)
+    double alphaCutoff =
+        -1;  ///< >= 0: fragments whose coverage * texture alpha is below do not exist (glTF MASK)
 };
 
 enum class PhaseType { Isotropic, Rayleigh, HenyeyGreenstein };
@@ -102,12 +109,14 @@ struct Medium {
     double g = 0;  ///< Henyey-Greenstein mean cosine, |g| <= 0.999
 };
 
-/// Triangles with one material. Winding: counter-clockwise seen from outside.
+/// Triangles with one material. Winding: counter-clockwise seen from outside in the world, so that
+/// a mirroring worldFromObject needs nothing more; normals point outside in object space (world:
+/// inverse transpose). Every surface is seen from both sides.
 struct Mesh {
     std::string name;
     std::vector<vec3> positions;  ///< object space
     std::vector<vec3> normals;    ///< unit, one per position
-    std::vector<vec2> uvs;        ///< one per position (zero where the file has none); v grows downwards
+    std::vector<vec2> uvs;  ///< one per position (zero where the file has none); v grows downwards
     std::vector<std::uint32_t> indices;  ///< three per triangle
     std::uint32_t material = 0;          ///< index into Scene::materials
     dmat4 worldFromObject{1};
@@ -118,7 +127,8 @@ enum class VolumeRepresentation { Bricks, Boxes, Particles };
 struct Volume {
     std::filesystem::path file;
     std::string density = "density";  ///< name of the grid
-    int gridIndex = -1;               ///< among the grids of that name; -1: the only one (several: an error that lists them)
+    int gridIndex =
+        -1;  ///< among the grids of that name; -1: the only one (several: an error that lists them)
     std::uint32_t medium = 0;
     VolumeRepresentation representation = VolumeRepresentation::Bricks;
     double tolerance = 0.03;  ///< boxes: largest (max - min) * extinction * size of a box
@@ -150,7 +160,7 @@ struct RenderSettings {
 };
 
 struct Scene {
-    std::filesystem::path file;  ///< empty if made by code
+    std::filesystem::path file;  ///< absolute; empty if made by code
     Camera camera;
     ImageSettings image;
     Background background;

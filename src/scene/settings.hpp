@@ -12,7 +12,8 @@ namespace brume::scene {
 using Settings = std::map<std::string, std::string>;
 
 /// Reads settings one by one and then complains about what nobody asked for, so that each
-/// technique lists its own keys once. Throws an input Error for values that do not parse or lie outside [lo, hi].
+/// technique lists its own keys once. Throws an input Error for values that do not parse or lie
+/// outside [lo, hi].
 class SettingsReader {
   public:
     /// `doing` opens each message, e.g. "setting up method linked_list".
@@ -24,7 +25,8 @@ class SettingsReader {
     std::string choice(const std::string& key, const std::string& fallback,
                        const std::vector<std::string>& allowed);
 
-    /// Throws if a key was given that none of the calls above asked for; the message lists those that were.
+    /// Throws if a key was given that none of the calls above asked for; the message lists those
+    /// that were.
     void finish() const;
 
   private:
