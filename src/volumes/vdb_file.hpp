@@ -16,7 +16,7 @@ struct GridInfo {
     int index = 0;                   ///< among the grids of this name
     std::string type;                ///< "float", "double", "half", "vec3s", ...
     std::string gridClass;           ///< "fog volume", "level set", "staggered", "unknown"
-    ivec3 lo{0}, hi{0};              ///< active index box, inclusive; lo > hi if empty
+    ivec3 lo{0}, hi{-1};             ///< active index box, inclusive; lo > hi if empty
     std::uint64_t activeVoxels = 0;  ///< tiles counted by their voxels
     std::uint64_t leafCount = 0, activeTileCount = 0;
     double minValue = 0, maxValue = 0;  ///< of the finite active values

@@ -37,7 +37,7 @@ struct ValueBox {
 struct SanitiseReport {
     std::uint64_t nan = 0;       ///< NaN voxels set to 0
     std::uint64_t negative = 0;  ///< negative voxels set to 0
-    std::uint64_t infinite = 0;  ///< infinite voxels (half overflow too) set to the cap
+    std::uint64_t infinite = 0;  ///< infinite voxels (half overflow, above 1e30) set to the cap
     float cap = 0;               ///< what infinite voxels were set to
     bool clippedBackground =
         false;  ///< the background is not 0; outside the active voxels it is taken as 0

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// .vdb files through OpenVDB. Nothing is read that the checker has not walked before.
+#include <volumes/grid_reader.hpp>
+#include <volumes/vdb_check.hpp>
+
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <map>
+
+namespace brume::volumes {
+namespace {
+
+ivec3 toIvec(const openvdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
+
+template <typename T>
+double measure(const T& value) {
+    if constexpr (openvdb::VecTraits<T>::IsVec)
+        return openvdb::Vec3d(value).length();
+    else
+        return static_cast<double>(value);
+}
+
+/// OpenVDB multiplies row vectors from the left, GLM column vectors from the right: the same 16
+/// numbers in memory.
+dmat4 toWorldFromIndex(const openvdb::math::Transform& transform) {
+    const openvdb::Mat4d m = transform.baseMap()->getAffineMap()->getMat4();
+    dmat4 result;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) result[i][j] = m(i, j);
+    return result;
+}
+
+template <typename LeafT>
+VoxelBlock copyLeaf(const LeafT& leaf) {
+    VoxelBlock block;
+    block.origin = toIvec(leaf.origin());
+    block.values.fill(0);
+    for (auto value = leaf.cbeginValueOn(); value; ++value)
+        block.values[value.pos()] = narrow(static_cast<double>(*value));
+    return block;
+}
+
+template <typename TreeT>
+void copyTree(const TreeT& tree, SparseField& field) {
+    field.background = static_cast<double>(tree.background());
+    field.blocks.reserve(tree.leafCount());
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
+        if (!leaf->isEmpty()) field.blocks.push_back(copyLeaf(*leaf));
+    auto tile = tree.cbeginValueOn();
+    tile.setMaxDepth(openvdb::FloatTree::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        openvdb::CoordBBox box;
+        tile.getBoundingBox(box);
+        field.tiles.push_back(
+            {toIvec(box.min()), box.dim().x(), narrow(static_cast<double>(tile.getValue()))});
+    }
+}
+
+template <typename TreeT>
+void describeTree(const TreeT& tree, GridInfo& info) {
+    info.activeVoxels = tree.activeVoxelCount();
+    info.leafCount = tree.leafCount();
+    info.activeTileCount = tree.activeTileCount();
+    info.background = measure(tree.background());
+    openvdb::CoordBBox box;
+    if (tree.evalActiveVoxelBoundingBox(box)) {
+        info.lo = toIvec(box.min());
+        info.hi = toIvec(box.max());
+    }
+    ValueRange range;
+    for (auto value = tree.cbeginValueOn(); value; ++value) range.add(measure(*value));
+    info.minValue = range.lo();
+    info.maxValue = range.hi();
+}
+
+/// Calls `visit(grid)` with the grid's own type if it is one of those listed.
+template <typename First, typename... Rest, typename Visit>
+void visitGrid(const openvdb::GridBase& grid, const Visit& visit) {
+    if (grid.isType<First>())
+        visit(static_cast<const First&>(grid));
+    else if constexpr (sizeof...(Rest) > 0)
+        visitGrid<Rest...>(grid, visit);
+}
+
+class VdbReader final : public GridReader {
+  public:
+    explicit VdbReader(const std::filesystem::path& file) : mPath(file) {
+        openvdb::initialize();  // only the first call does anything
+        FileReader reader(file);
+        mDirectory = VdbChecker(reader).checkDirectory();
+        std::map<std::string, int> seen;
+        for (const VdbEntry& entry : mDirectory.grids) {
+            const bool half = entry.isHalf && entry.type == "float";
+            mHeadings.push_back(
+                {entry.name, seen[entry.name]++, half ? std::string("half") : entry.type});
+        }
+    }
+
+    const std::vector<GridHeading>& headings() const override { return mHeadings; }
+
+    LoadedGrid read(std::size_t ordinal) override {
+        const VdbEntry& entry = mDirectory.grids.at(ordinal);
+        LoadedGrid loaded;
+        loaded.info.name = entry.name;
+        loaded.info.index = mHeadings[ordinal].index;
+        loaded.info.type = mHeadings[ordinal].type;
+        if (!entry.isKnown) {
+            loaded.info.refusal =
+                "its values are of type " + entry.type + ", which is not a scalar";
+            return loaded;
+        }
+        FileReader reader(mPath);
+        VdbChecker(reader).checkGrid(mDirectory, entry);
+        openvdb::io::File file(mPath.string());
+        file.open(/*delayLoad=*/false);
+        const openvdb::GridBase::Ptr grid =
+            file.readGrid(openvdb::io::GridDescriptor::nameAsString(entry.uniqueName));
+        describe(*grid, loaded.info);
+        if (loaded.info.refusal.empty())
+            visitGrid<openvdb::FloatGrid, openvdb::DoubleGrid>(
+                *grid, [&](const auto& typed) { copyTree(typed.tree(), loaded.field); });
+        return loaded;
+    }
+
+  private:
+    static void describe(const openvdb::GridBase& grid, GridInfo& info) {
+        using namespace openvdb;
+        visitGrid<FloatGrid, DoubleGrid, Int32Grid, Int64Grid, BoolGrid, MaskGrid, Vec3SGrid,
+                  Vec3DGrid, Vec3IGrid>(
+            grid, [&](const auto& typed) { describeTree(typed.tree(), info); });
+        info.gridClass = GridBase::gridClassToString(grid.getGridClass());
+        if (grid.transform().mapType() == math::NonlinearFrustumMap::mapType()) {
+            info.transform = "frustum";
+            info.refusal = "its transform is a frustum, an affine one is needed";
+        } else {
+            info.worldFromIndex = toWorldFromIndex(grid.transform());
+        }
+        if (!grid.isType<FloatGrid>() && !grid.isType<DoubleGrid>())
+            info.refusal =
+                "its values are of type " + info.type + ", a density is float, half or double";
+        else if (grid.getGridClass() == GRID_LEVEL_SET)
+            info.refusal = "it is a level set, whose values are distances and no density";
+    }
+
+    std::filesystem::path mPath;
+    VdbDirectory mDirectory;
+    std::vector<GridHeading> mHeadings;
+};
+
+}  // namespace
+
+std::unique_ptr<GridReader> openVdb(const std::filesystem::path& file) {
+    return std::make_unique<VdbReader>(file);
+}
+
+}  // namespace brume::volumes
