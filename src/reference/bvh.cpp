@@ -95,11 +95,9 @@ struct Bvh::Builder {
             right.extend(binBox[b]), n += binCount[b];
             cost[b] += n * halfArea(right);
         }
-        const auto best =
-            static_cast<int>(std::min_element(cost + 1, cost + kBinCount) - cost);
-        const auto middle =
-            std::partition(order.begin() + first, order.begin() + last,
-                           [&](std::uint32_t i) { return bin(i) < best; });
+        const auto best = static_cast<int>(std::min_element(cost + 1, cost + kBinCount) - cost);
+        const auto middle = std::partition(order.begin() + first, order.begin() + last,
+                                           [&](std::uint32_t i) { return bin(i) < best; });
         return static_cast<std::uint32_t>(middle - order.begin());
     }
 };

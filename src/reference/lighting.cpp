@@ -8,7 +8,8 @@
 namespace brume::reference {
 namespace {
 
-/// A surface does not shadow itself or what it touches within this distance (times the size of the coordinates).
+/// A surface does not shadow itself or what it touches within this distance (times the size of the
+/// coordinates).
 constexpr double kContactDistance = 1e-10;
 
 double computeSpotFactor(const scene::Light& light, const dvec3& travel) {
@@ -21,9 +22,12 @@ double computeSpotFactor(const scene::Light& light, const dvec3& travel) {
 
 double evaluatePhase(scene::PhaseType type, double g, double cosTheta) {
     switch (type) {
-        case scene::PhaseType::Isotropic: return phaseIsotropic<double>();
-        case scene::PhaseType::Rayleigh: return phaseRayleigh(cosTheta);
-        case scene::PhaseType::HenyeyGreenstein: break;
+        case scene::PhaseType::Isotropic:
+            return phaseIsotropic<double>();
+        case scene::PhaseType::Rayleigh:
+            return phaseRayleigh(cosTheta);
+        case scene::PhaseType::HenyeyGreenstein:
+            break;
     }
     return phaseHenyeyGreenstein(cosTheta, g);
 }
@@ -68,7 +72,7 @@ Lighting::Arrival Lighting::arrive(const scene::Light& light, const dvec3& posit
     if (light.type == scene::LightType::Directional) return {light.color, light.direction};
     const dvec3 fromLight = position - light.position;
     const double distance = glm::length(fromLight);
-    const dvec3 travel = distance > 0 ? fromLight / distance : dvec3(0);
+    const dvec3 travel = distance > 0 ? fromLight / distance : light.direction;
     const double d = std::max(distance, light.radius);
     const double factor =
         light.type == scene::LightType::Spot ? computeSpotFactor(light, travel) : 1.0;
@@ -91,8 +95,8 @@ void Lighting::scatter(const dvec3& position, const dvec3& direction,
             arrival.irradiance *= transmittance(arrival, position, 0, kNoTriangle);
         const double cosTheta = std::clamp(-glm::dot(arrival.travel, direction), -1.0, 1.0);
         for (std::size_t i = 0; i < perClass.size(); ++i)
-            perClass[i] += evaluatePhase(mPhases[i].first, mPhases[i].second, cosTheta) *
-                           arrival.irradiance;
+            perClass[i] +=
+                evaluatePhase(mPhases[i].first, mPhases[i].second, cosTheta) * arrival.irradiance;
     }
 }
 
@@ -120,10 +124,12 @@ void Lighting::collectBreaks(const scene::Ray& ray, std::vector<double>& breaks)
         breaks.push_back(closest);
         appendRoots(1, -closest, glm::dot(o, o) - light.radius * light.radius, breaks);
         if (light.type != scene::LightType::Spot) continue;
-        const double oa = glm::dot(o, light.direction), da = glm::dot(ray.direction, light.direction);
+        const double oa = glm::dot(o, light.direction),
+                     da = glm::dot(ray.direction, light.direction);
         for (const double angle : {light.innerAngle, light.outerAngle}) {
             const double c2 = std::cos(angle) * std::cos(angle);
-            appendRoots(da * da - c2, oa * da + c2 * closest, oa * oa - c2 * glm::dot(o, o), breaks);
+            appendRoots(da * da - c2, oa * da + c2 * closest, oa * oa - c2 * glm::dot(o, o),
+                        breaks);
         }
     }
 }

@@ -39,7 +39,7 @@ class Lighting {
     /// Light that arrives at a point if nothing is in the way.
     struct Arrival {
         dvec3 irradiance{0};
-        dvec3 travel{0};  ///< direction of the light, unit length; 0 at the position of the light
+        dvec3 travel{0};  ///< direction of the light, unit length
         double distance = kInfinity;
     };
 

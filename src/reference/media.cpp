@@ -51,7 +51,8 @@ void MediaSet::addSpheres(const Input& input) {
         const std::uint32_t plain = sourceOfMedium(sphere.medium, "a sphere");
         if (!(sphere.radius > 0) || !(sphere.density > 0)) continue;
         const vec3& tint = sphere.tint;
-        const auto [entry, isNew] = known.try_emplace({sphere.medium, tint.x, tint.y, tint.z}, plain);
+        const auto [entry, isNew] =
+            known.try_emplace({sphere.medium, tint.x, tint.y, tint.z}, plain);
         if (isNew) {
             const Source source = tintedSource(input.scene.media[sphere.medium], dvec3(tint));
             if (!isSame(source, mSources[plain])) entry->second = addSource(source);
@@ -92,7 +93,8 @@ Box3 MediaSet::bounds() const {
 
 bool MediaSet::makePiece(const SphereShape& sphere, const scene::Ray& ray, double tMax,
                          Piece& piece) {
-    // The distance of the centre from the ray by its perpendicular: b^2 - c would lose small spheres.
+    // The distance of the centre from the ray by its perpendicular: b^2 - c would lose small
+    // spheres.
     const dvec3 toCenter = sphere.center - ray.origin;
     const double middle = glm::dot(toCenter, ray.direction);
     const double distance = glm::length(toCenter - middle * ray.direction);
@@ -124,11 +126,14 @@ void MediaSet::collect(const scene::Ray& ray, double tMax, std::vector<Piece>& p
         if (makePiece(mSpheres[i], ray, tMax, piece)) pieces.push_back(piece);
     });
     for (const Grid& grid : mGrids)
-        grid.field->visitRay(
-            toIndexSpace(grid, ray), 0, tMax, [&](const volumes::DensitySegment& s) {
-                pieces.push_back({s.t0, s.t1, {s.c[0], s.c[1], s.c[2], s.c[3]}, grid.source,
-                                  Piece::Kind::Cubic});
-            });
+        grid.field->visitRay(toIndexSpace(grid, ray), 0, tMax,
+                             [&](const volumes::DensitySegment& s) {
+                                 pieces.push_back({s.t0,
+                                                   s.t1,
+                                                   {s.c[0], s.c[1], s.c[2], s.c[3]},
+                                                   grid.source,
+                                                   Piece::Kind::Cubic});
+                             });
 }
 
 dvec3 MediaSet::opticalDepth(const scene::Ray& ray, double tMax) const {

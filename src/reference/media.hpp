@@ -30,25 +30,30 @@ struct Piece {
     enum class Kind : std::uint8_t { Constant, Smooth, Cubic };
 
     double t0 = 0, t1 = 0;
-    double c[4] = {};  ///< value; scale, entry and exit of the chord; coefficients in (t - t0) / (t1 - t0)
+    double c[4] =
+        {};  ///< value; scale, entry and exit of the chord; coefficients in (t - t0) / (t1 - t0)
     std::uint32_t source = 0;
     Kind kind = Kind::Constant;
 
-    /// Factored where it has zeros, so that it is precise relative to itself near the rim of a sphere.
+    /// Factored where it has zeros, so that it is precise relative to itself near the rim of a
+    /// sphere.
     double density(double t) const {
         switch (kind) {
-            case Kind::Constant: return c[0];
+            case Kind::Constant:
+                return c[0];
             case Kind::Smooth: {
                 const double q = (t - c[1]) * (c[2] - t);
                 return c[0] * q * q;
             }
-            case Kind::Cubic: break;
+            case Kind::Cubic:
+                break;
         }
         const double u = (t - t0) / (t1 - t0);
         return std::max(0.0, c[0] + u * (c[1] + u * (c[2] + u * c[3])));
     }
 
-    /// Integral of the density over [a, b], which lies in [t0, t1]: Boole's rule, exact to degree 5.
+    /// Integral of the density over [a, b], which lies in [t0, t1]: Boole's rule, exact to
+    /// degree 5.
     double integrate(double a, double b) const {
         const double h = b - a;
         if (kind == Kind::Constant) return c[0] * h;
@@ -62,7 +67,8 @@ struct Piece {
 /// The scene's media. Not the solids' shapes, which are triangles, only their properties.
 class MediaSet {
   public:
-    /// What `input` refers to must outlive the set. Throws an input Error if its parts do not belong together.
+    /// What `input` refers to must outlive the set. Throws an input Error if its parts do not
+    /// belong together.
     explicit MediaSet(const Input& input);
 
     const Source& source(std::uint32_t index) const { return mSources[index]; }

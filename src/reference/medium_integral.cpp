@@ -48,9 +48,8 @@ void MediumIntegral::start(const scene::Ray& ray, std::span<const Piece> pieces)
     keepLightSamples(1);
     mIsLightConstant = mLighting.isConstantAlongRays();
     mIsUniform = mIsLightConstant &&
-                 std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-                     return piece.source == pieces[0].source;
-                 });
+                 std::all_of(pieces.begin(), pieces.end(),
+                             [&](const Piece& piece) { return piece.source == pieces[0].source; });
     mSourceLight.clear();
     if (!mIsLightConstant || pieces.empty()) return;
     sampleLight(0, 0);
@@ -69,7 +68,8 @@ void MediumIntegral::addUniform(std::uint32_t piece, double density) {
     const dvec3& light = mSourceLight[piece];
     for (int c = 0; c < 3; ++c) {
         const double absorbed = -std::expm1(-depth[c]);
-        // Thick: the ratio of light to extinction; thin: the light, less the little absorbed on its way.
+        // Thick: the ratio of light to extinction; thin: the light, less the little absorbed on its
+        // way.
         double gain = light[c] * density;
         if (depth[c] > 1)
             gain = light[c] / mMedia.source(mPieces[piece].source).extinction[c] * absorbed;
@@ -98,7 +98,8 @@ void MediumIntegral::advance(double a, double b, std::span<const std::uint32_t> 
     if (isDark()) {
         dvec3 depth(0);
         for (const std::uint32_t piece : open)
-            depth += mMedia.source(mPieces[piece].source).extinction * mPieces[piece].integrate(a, b);
+            depth +=
+                mMedia.source(mPieces[piece].source).extinction * mPieces[piece].integrate(a, b);
         mTransmittance *= glm::exp(-depth);
     } else if (hasOneSource && mIsLightConstant) {
         double density = 0;
@@ -116,8 +117,8 @@ void MediumIntegral::advancePanels(double a, double b) {
     if (!mIsLightConstant && mSampledTo != a) sampleLight(0, a);
     double panelCount = 1;
     if (!mIsLightConstant && mLighting.hasShadows())
-        panelCount = std::clamp(std::ceil((b - a) / mSceneSize * kPanelsPerScene), 1.0,
-                                2 * kPanelsPerScene);
+        panelCount =
+            std::clamp(std::ceil((b - a) / mSceneSize * kPanelsPerScene), 1.0, 2 * kPanelsPerScene);
     for (double i = 0; i < panelCount; ++i) {
         const double from = a + (b - a) * (i / panelCount);
         const double to = i + 1 < panelCount ? a + (b - a) * ((i + 1) / panelCount) : b;
@@ -167,8 +168,8 @@ MediumIntegral::Panel MediumIntegral::evaluate(double a, double b, const Nodes& 
         for (int k = 0; k < kNodeCount; ++k) {
             const double density = piece.density(k < 4 ? a + 0.25 * k * panel.length : b);
             panel.extinction[k] += density * extinction;
-            panel.light[k] += density * (mIsLightConstant ? mSourceLight[index]
-                                                          : sourceLight(piece, nodes[k]));
+            panel.light[k] +=
+                density * (mIsLightConstant ? mSourceLight[index] : sourceLight(piece, nodes[k]));
         }
     }
     return panel;
@@ -190,13 +191,16 @@ MediumIntegral::Gain MediumIntegral::integrate(const Panel& panel) const {
             if (sigma[k] > 0) variation = std::max(variation, std::abs(difference) / sigma[k]);
             rest[k] = difference * std::exp(-h * tau[k]);
         }
-        const double fine = h * boole(rest);
-        const double coarse = h / 6 * (rest[0] + 4 * rest[2] + rest[4]);
+        double fine = h * boole(rest);
+        double error = std::abs(fine - h / 6 * (rest[0] + 4 * rest[2] + rest[4]));
+        if (depth > 1) {
+            // The nodes of a thick panel miss where the light comes from, and their rounding errors
+            // grow with the depth; but the integral cannot exceed the variation of the source.
+            fine = std::clamp(fine, -variation, variation);
+            error = variation;
+        }
         gain.radiance[c] = mTransmittance[c] * (fine - reference * std::expm1(-depth));
         gain.transmittance[c] = std::exp(-depth);
-        // In a thick panel the nodes miss where the light comes from: only its smallness counts.
-        const double error = depth > 1 ? std::max(std::abs(fine - coarse), variation)
-                                       : std::abs(fine - coarse);
         gain.error = std::max(gain.error, mTransmittance[c] * error);
     }
     return gain;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <reference/lighting.hpp>
+#include <reference/surface_response.hpp>
 
 #include <array>
 #include <span>
@@ -28,7 +29,8 @@ class MediumIntegral {
     /// Begins a ray through `pieces`, which must stay until its end.
     void start(const scene::Ray& ray, std::span<const Piece> pieces);
 
-    /// All pieces have one source function, constant along the ray: then any [a, b] may be passed with advanceUniform().
+    /// All pieces have one source function, constant along the ray: then any [a, b] may be passed
+    /// with advanceUniform().
     bool isUniform() const { return mIsUniform; }
     void advanceUniform(double a, double b);
     /// Passes [a, b], inside which just the pieces `open` are open and no other begins or ends.

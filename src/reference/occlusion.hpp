@@ -23,7 +23,8 @@ class Occlusion {
     dvec3 transmittance(const scene::Ray& ray, double tMin, double tMax,
                         std::uint32_t except = kNoTriangle) const;
 
-    /// Appends the pieces of [0, tMax] inside solid meshes. `hits`: all transparent triangles along the whole ray, sorted.
+    /// Appends the pieces of [0, tMax] inside solid meshes. `hits`: all transparent triangles along
+    /// the whole ray, sorted.
     void collectSolids(std::span<const Hit> hits, double tMax, std::vector<Piece>& pieces) const;
 
   private:

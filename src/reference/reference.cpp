@@ -22,8 +22,7 @@ class FrameJob {
     FrameJob(const Input& input, const Options& options)
         : mSettings(input.scene.image),
           mTracer(input, options.shadows),
-          mFrame(scene::makeCameraFrame(input.scene.camera,
-                                        mSettings.width * mSettings.supersample,
+          mFrame(scene::makeCameraFrame(input.scene.camera, mSettings.width * mSettings.supersample,
                                         mSettings.height * mSettings.supersample)),
           mOptions(options),
           mTilesAcross((mSettings.width + kTileSize - 1) / kTileSize),

@@ -25,7 +25,8 @@ SurfaceResponse respondThin(const scene::Material& material, const dvec2& uv, co
 SurfaceResponse respond(const scene::Material& material, const dvec2& uv,
                         const dvec3& illumination) {
     if (material.type == scene::MaterialType::Solid) return {dvec3(1), dvec3(0)};
-    const dvec4 texel = material.colorTexture ? scene::sampleBilinear(*material.colorTexture, uv) : dvec4(1);
+    const dvec4 texel(material.colorTexture ? scene::sampleBilinear(*material.colorTexture, uv)
+                                            : vec4(1));
     if (material.type == scene::MaterialType::Thin)
         return respondThin(material, uv, texel, illumination);
     return {dvec3(0), material.albedo * dvec3(texel) * illumination + emitted(material, uv)};

@@ -113,8 +113,8 @@ RayResult Tracer::integrateRay(const scene::Ray& ray, double surfaceMin,
     if (!scratch.integral.isDark())
         scratch.integral.pass(
             opaque ? world.respondTo(ray, *opaque)
-                   : SurfaceResponse{dvec3(0),
-                                     scene::environmentRadiance(world.scene.background, ray.direction)});
+                   : SurfaceResponse{dvec3(0), scene::environmentRadiance(world.scene.background,
+                                                                          ray.direction)});
     result.radiance = scratch.integral.radiance();
     return result;
 }

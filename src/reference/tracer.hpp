@@ -36,12 +36,14 @@ struct RayScratch {
 /// A scene prepared for rays. Thread-safe: const after construction.
 class Tracer {
   public:
-    /// What `input` refers to must outlive the tracer. Throws an input Error if its parts do not belong together.
+    /// What `input` refers to must outlive the tracer. Throws an input Error if its parts do not
+    /// belong together.
     explicit Tracer(const Input& input, bool withShadows = true);
 
     RayScratch makeScratch() const;
 
-    /// Radiance that arrives at the origin of the ray. Surfaces count from `surfaceMin` on, media from 0.
+    /// Radiance that arrives at the origin of the ray. Surfaces count from `surfaceMin` on, media
+    /// from 0.
     RayResult integrateRay(const scene::Ray& ray, double surfaceMin, RayScratch& scratch) const;
     RayResult integrateRay(const scene::Ray& ray, double surfaceMin = 0) const;
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <reference/triangles.hpp>
 
-#include <scene/texture.hpp>
 #include <shaders/common/triangle_hash.h>
+#include <scene/texture.hpp>
 
 #include <algorithm>
 
 namespace brume::reference {
 
-/// The ray's part of the watertight test of Woop, Benthin and Wald (2013): the axes are permuted and
-/// sheared until the ray runs along +z.
+/// The ray's part of the watertight test of Woop, Benthin and Wald (2013): the axes are permuted
+/// and sheared until the ray runs along +z.
 struct TriangleSet::Shear {
     dvec3 origin;
     int x = 0, y = 1, z = 2;
@@ -33,7 +33,8 @@ struct TriangleSet::Shear {
 
 namespace {
 
-/// Twice the signed area of (0, a, b); exactly antisymmetric, so triangles that share an edge agree.
+/// Twice the signed area of (0, a, b); exactly antisymmetric, so triangles that share an edge
+/// agree.
 double edgeFunction(const dvec3& a, const dvec3& b) { return a.x * b.y - a.y * b.x; }
 
 /// Is the ray on the inner side of the edge a -> b of a triangle of this orientation? A ray exactly
@@ -137,14 +138,13 @@ void TriangleSet::collectTransparent(const scene::Ray& ray, double tMin, std::ui
     if (mTransparent.isEmpty()) return;
     const Shear shear(ray);
     const auto first = static_cast<std::ptrdiff_t>(hits.size());
-    mTransparent.visit(SlabRay(ray.origin, ray.direction), tMin, kInfinity,
-                       [&](std::uint32_t leaf) {
-                           const std::uint32_t index = mTransparentIndices[leaf];
-                           Hit hit;
-                           if (index != except && intersect(shear, index, tMin, kInfinity, hit) &&
-                               exists(hit))
-                               hits.push_back(hit);
-                       });
+    mTransparent.visit(
+        SlabRay(ray.origin, ray.direction), tMin, kInfinity, [&](std::uint32_t leaf) {
+            const std::uint32_t index = mTransparentIndices[leaf];
+            Hit hit;
+            if (index != except && intersect(shear, index, tMin, kInfinity, hit) && exists(hit))
+                hits.push_back(hit);
+        });
     std::sort(hits.begin() + first, hits.end(), [](const Hit& a, const Hit& b) {
         return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
     });
@@ -158,13 +158,16 @@ dvec2 TriangleSet::uv(const Hit& hit) const {
     const Triangle& triangle = mTriangles[hit.triangle];
     const scene::Mesh& mesh = mScene.meshes[triangle.mesh];
     if (mesh.uvs.empty()) return dvec2(0);
-    const auto corner = [&](int i) { return dvec2(mesh.uvs[mesh.indices[3 * triangle.index + i]]); };
+    const auto corner = [&](int i) {
+        return dvec2(mesh.uvs[mesh.indices[3 * triangle.index + i]]);
+    };
     return (1 - hit.b1 - hit.b2) * corner(0) + hit.b1 * corner(1) + hit.b2 * corner(2);
 }
 
 double TriangleSet::coverage(const Hit& hit) const {
     const scene::Material& m = material(hit.triangle);
-    return m.colorTexture ? m.coverage * scene::sampleBilinear(*m.colorTexture, uv(hit)).a : m.coverage;
+    return m.colorTexture ? m.coverage * scene::sampleBilinear(*m.colorTexture, uv(hit)).a
+                          : m.coverage;
 }
 
 dvec3 TriangleSet::interpolateNormal(const Hit& hit) const {

@@ -41,12 +41,14 @@ class TriangleSet {
     bool hasOpaque() const { return !mOpaque.isEmpty(); }
     bool hasTransparent() const { return !mTransparent.isEmpty(); }
 
-    /// The opaque triangle hit first with t in [tMin, tMax), other than `except`; masked-away texels do not count.
+    /// The opaque triangle hit first with t in [tMin, tMax), other than `except`; masked-away
+    /// texels do not count.
     std::optional<Hit> findNearestOpaque(const scene::Ray& ray, double tMin, double tMax,
                                          std::uint32_t except = kNoTriangle) const;
     bool isBlocked(const scene::Ray& ray, double tMin, double tMax, std::uint32_t except) const;
 
-    /// Appends all thin and solid triangles with t >= tMin, other than `except`, in order of (t, triangle).
+    /// Appends all thin and solid triangles with t >= tMin, other than `except`, in order of (t,
+    /// triangle).
     void collectTransparent(const scene::Ray& ray, double tMin, std::uint32_t except,
                             std::vector<Hit>& hits) const;
 
