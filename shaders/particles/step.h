@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// One tick of one particle: the step that the GPU and its twin on the CPU both compile.
+// Equations: dv/dt = a - k (v - w) with a (gravity and fields at the start of the step) and w
+// (wind) constant has the exact solution v(h) = w + (v - w) e^{-kh} + a phi1, x(h) = x + w h + (v -
+// w) phi1 + a phi2 with phi1 = (1 - e^{-kh}) / k and phi2 = (h - phi1) / k. Source: exponential
+// Euler, e.g. Hochbruck, Ostermann, "Exponential integrators", Acta Numerica 19,
+// 2010, 10.1017/S0962492910000048.
+#ifndef BRUME_SHADERS_PARTICLES_STEP_H
+#define BRUME_SHADERS_PARTICLES_STEP_H
+
+#include "effect.h"
+
+BRUME_STRUCTS_BEGIN
+
+/// Age in ticks at the end of `tick`.
+BRUME_SHARED float ageTicks(ParticleLife life, uint tick) {
+    BRUME_PRECISE float age = float(tick - life.birthTick) + life.birthRemaining;
+    return age;
+}
+
+BRUME_SHARED bool isAlive(ParticleLife life, uint tick) {
+    return ageTicks(life, tick) < life.lifetimeTicks;
+}
+
+/// Accelerations that depend on the place: one loop per type of field module.
+BRUME_SHARED vec3 fieldAcceleration(BRUME_EFFECT_PARAMETER vec3 position) {
+    BRUME_PRECISE vec3 sum = vec3(0.0f);
+    for (uint i = 0u; i < BRUME_CURL_NOISE_COUNT; ++i)
+        sum = sum + curlNoiseAcceleration(BRUME_EFFECT.curlNoise[i], position);
+    return sum;
+}
+
+/// The step with given factors over `seconds`.
+BRUME_SHARED void integrate(BRUME_INOUT(vec3) position, BRUME_INOUT(vec3) velocity,
+                            vec3 acceleration, vec3 wind, float seconds, float loss,
+                            float velocityGain, float positionGain) {
+    BRUME_PRECISE vec3 slip = velocity - wind;
+    BRUME_PRECISE vec3 x =
+        position + (wind * seconds + slip * velocityGain + acceleration * positionGain);
+    // The loss, not 1 - loss, multiplies: it keeps its digits over many short ticks.
+    BRUME_PRECISE vec3 v = velocity + (acceleration * velocityGain - slip * loss);
+    position = x;
+    // Devices differ in how they treat denormal numbers, so speeds end long before those.
+    velocity = vec3(abs(v.x) < 1e-20f ? 0.0f : v.x, abs(v.y) < 1e-20f ? 0.0f : v.y,
+                    abs(v.z) < 1e-20f ? 0.0f : v.z);
+}
+
+/// Kills what has left the range of floats or is NaN: it is gone in the next tick.
+BRUME_SHARED void killIfNotFinite(BRUME_INOUT(Particle) particle) {
+    bool finite = abs(particle.position.x) < 1e18f && abs(particle.position.y) < 1e18f &&
+                  abs(particle.position.z) < 1e18f && abs(particle.velocity.x) < 1e18f &&
+                  abs(particle.velocity.y) < 1e18f && abs(particle.velocity.z) < 1e18f;
+    if (!finite) {
+        particle.position = vec3(0.0f);
+        particle.velocity = vec3(0.0f);
+        particle.life.lifetimeTicks = -1.0f;
+    }
+}
+
+/// A whole tick.
+BRUME_SHARED void stepParticle(BRUME_EFFECT_PARAMETER BRUME_INOUT(Particle) particle) {
+    BRUME_PRECISE vec3 acceleration =
+        BRUME_EFFECT.step.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
+    integrate(particle.position, particle.velocity, acceleration, BRUME_EFFECT.step.wind,
+              BRUME_EFFECT.step.tickSeconds, BRUME_EFFECT.step.loss, BRUME_EFFECT.step.velocityGain,
+              BRUME_EFFECT.step.positionGain);
+    killIfNotFinite(particle);
+}
+
+/// The part of its first tick that is left after a particle's birth.
+BRUME_SHARED void stepNewParticle(BRUME_EFFECT_PARAMETER BRUME_INOUT(Particle) particle) {
+    BRUME_PRECISE float part = particle.life.birthRemaining;
+    BRUME_PRECISE float seconds = BRUME_EFFECT.step.tickSeconds * part;
+    BRUME_PRECISE float loss, phi1, phi2;
+    exponentialFactors(BRUME_EFFECT.step.dragPerTick * part, BRUME_EFFECT.step.dragHalvings, loss,
+                       phi1, phi2);
+    BRUME_PRECISE float velocityGain = seconds * phi1;
+    BRUME_PRECISE float positionGain = seconds * seconds * phi2;
+    BRUME_PRECISE vec3 acceleration =
+        BRUME_EFFECT.step.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
+    integrate(particle.position, particle.velocity, acceleration, BRUME_EFFECT.step.wind, seconds,
+              loss, velocityGain, positionGain);
+    killIfNotFinite(particle);
+}
+
+BRUME_STRUCTS_END
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contract of a simulation module: what it is called in effect files, its settings, and what it
+// adds to a step. A module is modules/<name>.{hpp,cpp}, for a field also
+// shaders/particles/modules/<name>.h (the step, compiled by both sides), and one line
+// particle_module(<name>) in CMakeLists.txt.
+#pragma once
+
+#include <shaders/particles/effect.h>
+#include <core/math.hpp>
+#include <scene/effect.hpp>
+
+#include <string>
+#include <vector>
+
+namespace brume::particles {
+
+/// One setting: a number or a vector of three.
+struct ModuleKey {
+    std::string name;
+    std::string unit;  ///< "1" for pure numbers
+    std::string summary;
+    std::vector<double> fallback;  ///< size 1 or 3; all components lie in [lo, hi]
+    double lo = 0;
+    double hi = 0;
+    bool isInteger = false;
+};
+
+struct ModuleInfo {
+    std::string name;  ///< "type" in effect files
+    std::string summary;
+    bool isReplayable = true;  ///< same bits on every device
+    std::vector<ModuleKey> keys;
+};
+
+/// The settings of one use of a module, checked against its keys; missing ones have their defaults.
+class ModuleValues {
+  public:
+    /// Throws an input Error at `settings.where` for an unknown key, a wrong size or a value out of
+    /// range.
+    ModuleValues(const ModuleInfo& info, const scene::ModuleSettings& settings);
+
+    double number(const std::string& key) const { return mValues.at(key)[0]; }
+    dvec3 vector(const std::string& key) const;
+    const std::string& where() const { return mWhere; }
+
+  private:
+    std::map<std::string, std::vector<double>> mValues;
+    std::string mWhere;
+};
+
+/// What the modules of an effect add up to. Drag rates add; the wind is their mean, weighted by
+/// rate.
+struct ModuleSums {
+    dvec3 acceleration{0};                           ///< m/s^2
+    double dragRate = 0;                             ///< 1/s
+    dvec3 dragRateTimesWind{0};                      ///< m/s^2
+    std::uint64_t seed = 0;                          ///< of the effect, for fields
+    shader::EffectParameters* parameters = nullptr;  ///< takes the fields
+};
+
+/// A module as the registry knows it. `add` may throw an input Error at values.where().
+struct Module {
+    ModuleInfo info;
+    void (*add)(const ModuleValues& values, ModuleSums& sums);
+};
+
+/// All modules in the order of CMakeLists.txt.
+const std::vector<Module>& modules();
+
+/// Adds up the modules of an effect. Throws an input Error naming the place for unknown modules
+/// (listing the known ones).
+void addModules(const std::vector<scene::ModuleSettings>& settings, ModuleSums& sums);
+
+}  // namespace brume::particles
