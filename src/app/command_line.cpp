@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <app/command_line.hpp>
+#include <app/commands/bench.hpp>
+#include <app/commands/compare.hpp>
+#include <app/commands/inspect.hpp>
+#include <app/commands/list.hpp>
+#include <app/commands/render.hpp>
+#include <app/commands/simulate.hpp>
+#include <app/console.hpp>
+#include <bench/row.hpp>
+#include <core/error.hpp>
+#include <exception>
+#include <functional>
+#include <new>
+
+namespace brume::app {
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
+
+/// The arguments of all commands, and the one that was chosen.
+struct Invocation {
+    bool verbose = false;
+    RenderArguments render;
+    CompareArguments compare;
+    BenchArguments bench;
+    SimulateArguments simulate;
+    InspectArguments inspect;
+    ListArguments list;
+    std::function<void(const Log&)> command;
+};
+
+void addDeviceOptions(CLI::App& command, DeviceArguments& arguments) {
+    command.add_option("--device", arguments.device,
+                       "Vulkan device: part of its name, or its index in `brume list devices`");
+    command.add_flag("--validate", arguments.validate,
+                     "Run under the validation layers; fail on any message");
+}
+
+void addRender(CLI::App& app, Invocation& invocation) {
+    RenderArguments& a = invocation.render;
+    CLI::App* command = app.add_subcommand("render", "Render a scene file");
+    command->add_option("scene", a.scene, "Scene file (.json)")->required();
+    command->add_option(
+        "-o,--output", a.output,
+        "Image file, .exr (linear) or .png (sRGB); #### stands for the frame number");
+    command->add_option("--method", a.method, "Method of `brume list methods`, or reference");
+    command->add_option("--shadow", a.shadow, "Shadow store of all lights, or none");
+    command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels");
+    auto* frame = command->add_option("--frame", a.frame, "Effects at this frame's time");
+    command->add_option("--frames", a.frames, "Frames FIRST:LAST, both included")->excludes(frame);
+    command->add_option("--frame-rate", a.frameRate, "Frames per second of --frame and --frames")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->capture_default_str();
+    command->add_option("--seed", a.seed, "Seed of the first effect; the others count on from it");
+    command->add_option("--set", a.settings, "Setting of the method, key=value")
+        ->allow_extra_args(false);
+    command->add_option("--against", a.against,
+                        "Print the error against `reference` or an image file");
+    command->add_flag("--explain", a.explain,
+                      "Print what the scene needs and what follows from it");
+    command
+        ->add_option("--repeats", a.repeats, "Frames to measure, after one to warm up if several")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--json", a.json, "Write the measurement to this file");
+    addDeviceOptions(*command, a.device);
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runRender(invocation.render, log); }; });
+}
+
+void addCompare(CLI::App& app, Invocation& invocation) {
+    CompareArguments& a = invocation.compare;
+    CLI::App* command = app.add_subcommand("compare", "Measure the difference of two images");
+    command->add_option("test", a.test, "Image file")->required();
+    command->add_option("reference", a.reference, "Image file that is taken for right")->required();
+    command->add_option("--json", a.json, "Write the figures to this file");
+    command->add_option("--diff", a.diff,
+                        "Write a picture of the absolute differences (black 1e-6 to white 1)");
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runCompare(invocation.compare, log); }; });
+}
+
+void addBench(CLI::App& app, Invocation& invocation) {
+    BenchArguments& a = invocation.bench;
+    CLI::App* command = app.add_subcommand("bench", "Measure time, bytes and error of methods");
+    command->add_option("--scenes", a.scenes, "Names of `brume list scenes`, or scene files")
+        ->delimiter(',');
+    command->add_option("--methods", a.methods, "Names of `brume list methods`, or all")
+        ->delimiter(',');
+    command->add_option("--shadows", a.shadows, "Shadow stores to compare")->delimiter(',');
+    command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");
+    command->add_option("--repeats", a.repeats, "Frames to measure per row")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_flag("!--no-error", a.withError, "Do not compare with the reference");
+    command->add_option("--set", a.settings, "Setting of the methods that know it, key=value")
+        ->allow_extra_args(false);
+    command->add_option("--json", a.json, "Write the rows to this file");
+    command->add_option("--report", a.report, "Write a report with images into this folder");
+    addDeviceOptions(*command, a.device);
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runBench(invocation.bench, log); }; });
+}
+
+void addSimulate(CLI::App& app, Invocation& invocation) {
+    SimulateArguments& a = invocation.simulate;
+    CLI::App* command = app.add_subcommand("simulate", "Run an effect without rendering it");
+    command->add_option("effect", a.effect, "Effect file (.json)")->required();
+    command->add_option("--frames", a.frames, "Frames to simulate")->capture_default_str();
+    command->add_option("--dt", a.secondsPerFrame, "Seconds per frame (default 1/24)");
+    command->add_option("--seed", a.seed, "Seed of the random numbers")->capture_default_str();
+    command->add_flag("--hash", a.hash, "Print a hash of the particles");
+    command->add_flag("--reference", a.reference, "Simulate on the CPU");
+    command->add_option("--json", a.json, "Write the counts to this file");
+    addDeviceOptions(*command, a.device);
+    command->callback([&] {
+        invocation.command = [&](const Log& log) { runSimulate(invocation.simulate, log); };
+    });
+}
+
+void addInspect(CLI::App& app, Invocation& invocation) {
+    CLI::App* command =
+        app.add_subcommand("inspect", "Show what is in a volume, scene or effect file");
+    command->add_option("file", invocation.inspect.file, "File (.vdb, .nvdb or .json)")->required();
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runInspect(invocation.inspect, log); }; });
+}
+
+void addList(CLI::App& app, Invocation& invocation) {
+    ListArguments& a = invocation.list;
+    CLI::App* command = app.add_subcommand("list", "Show what there is to choose from");
+    command->add_option("what", a.what, "methods, shadows, modules, devices or scenes")
+        ->required()
+        ->check(CLI::IsMember({"methods", "shadows", "modules", "devices", "scenes"}));
+    command->add_flag("--markdown", a.markdown, "Methods as the table of the README");
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runList(invocation.list, log); }; });
+}
+
+/// Parses into `invocation`; the exit code if that is already the end (help, version, wrong usage).
+std::optional<int> parse(int argc, char** argv, Invocation& invocation) {
+    CLI::App app("Particle and volumetric effects with exact transparency", "brume");
+    app.set_version_flag("--version",
+                         fmt::format("brume {} ({})", bench::version(), bench::commit()));
+    app.add_flag("--verbose", invocation.verbose, "Say more about what is being done");
+    app.require_subcommand(1);
+    app.fallthrough();
+    addRender(app, invocation);
+    addCompare(app, invocation);
+    addBench(app, invocation);
+    addSimulate(app, invocation);
+    addInspect(app, invocation);
+    addList(app, invocation);
+    try {
+        app.parse(argc, argv);
+        return std::nullopt;
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        printError(fmt::format("reading options: {}, see brume --help", error.what()));
+        return kWrongUsage;
+    }
+}
+
+int runGuarded(const Invocation& invocation) {
+    try {
+        invocation.command(makeConsoleLog(invocation.verbose));
+        return kDone;
+    } catch (const Error& error) {
+        printError(error.what());
+        return error.kind() == ErrorKind::Input ? kWrongUsage : kFailed;
+    } catch (const std::bad_alloc&) {
+        printError("out of memory");
+    } catch (const std::exception& error) {
+        printError(fmt::format("internal error: {}", error.what()));
+    }
+    return kFailed;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+    Invocation invocation;
+    if (const std::optional<int> code = parse(argc, argv, invocation)) return *code;
+    return runGuarded(invocation);
+}
+
+}  // namespace brume::app

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/commands/list.hpp>
+#include <bench/scenes.hpp>
+#include <core/error.hpp>
+#include <filesystem>
+#include <gpu/device.hpp>
+#include <map>
+#include <oit/method_info.hpp>
+#include <particles/modules/module.hpp>
+#include <vector>
+
+namespace brume::app {
+namespace {
+
+std::string_view describe(oit::Exactness exactness) {
+    switch (exactness) {
+        case oit::Exactness::Exact:
+            return "exact";
+        case oit::Exactness::Bounded:
+            return "bounded";
+        case oit::Exactness::Approximate:
+            break;
+    }
+    return "approximate";
+}
+
+void listMethods() {
+    for (const oit::MethodInfo& m : oit::listMethods()) {
+        fmt::print("{:<16} {} ({})\n", m.name, m.summary, describe(m.exactness));
+        fmt::print("  paper   {}\n  passes  {}\n  bytes   {} per pixel\n  limits  {}\n", m.paper,
+                   m.passes, m.bytesPerPixel, m.limits);
+        for (const oit::SettingInfo& s : m.settings)
+            fmt::print("  --set {}={} ({}): {}\n", s.name, s.defaultValue, s.values, s.meaning);
+    }
+    fmt::print("{:<16} The exact renderer on the CPU, in double precision (exact)\n", "reference");
+}
+
+void listMethodsAsMarkdown() {
+    fmt::print("| method | what it does | result | passes | bytes per pixel | limits | paper |\n");
+    fmt::print("|---|---|---|---|---|---|---|\n");
+    for (const oit::MethodInfo& m : oit::listMethods())
+        fmt::print("| `{}` | {} | {} | {} | {} | {} | {} |\n", m.name, m.summary,
+                   describe(m.exactness), m.passes, m.bytesPerPixel, m.limits, m.paper);
+}
+
+void listShadows() {
+    fmt::print("{:<16} Lights shine through everything\n", "none");
+    fmt::print("{:<16} Any other name: exact transmittance, with --method reference only\n", "...");
+}
+
+std::string formatFallback(const particles::ModuleKey& key) {
+    if (key.fallback.size() == 1) return fmt::format("{}", key.fallback[0]);
+    return fmt::format("[{}, {}, {}]", key.fallback[0], key.fallback[1], key.fallback[2]);
+}
+
+void listModules() {
+    for (const particles::Module& module : particles::modules()) {
+        fmt::print("{:<16} {}\n", module.info.name, module.info.summary);
+        for (const particles::ModuleKey& key : module.info.keys)
+            fmt::print("  {} = {} in {}..{} {}: {}\n", key.name, formatFallback(key), key.lo,
+                       key.hi, key.unit, key.summary);
+    }
+}
+
+void listDevices() {
+    int index = 0;
+    for (const gpu::DeviceInfo& device : gpu::listDevices()) {
+        fmt::print("{} {} ({}), driver {}, Vulkan {}{}\n", index++, device.name, device.type,
+                   device.driver, device.api, device.rejections.empty() ? "" : ": cannot be used");
+        for (const std::string& reason : device.rejections) fmt::print("  {}\n", reason);
+    }
+    if (index == 0) fmt::print("no Vulkan device\n");
+}
+
+void listScenes() {
+    for (const bench::SceneInfo& scene : bench::listScenes())
+        fmt::print("{:<16} {}\n", scene.name, scene.summary);
+    std::error_code error;
+    std::vector<std::filesystem::path> demos;
+    for (const auto& entry : std::filesystem::directory_iterator("demos", error))
+        if (std::filesystem::exists(entry.path() / "scene.json", error))
+            demos.push_back(entry.path());
+    std::sort(demos.begin(), demos.end());
+    for (const auto& demo : demos)
+        fmt::print("{:<16} {}\n", demo.filename().string(), (demo / "scene.json").string());
+}
+
+}  // namespace
+
+void runList(const ListArguments& arguments, const Log&) {
+    if (arguments.markdown && arguments.what != "methods")
+        throw inputError("reading options", "--markdown", "only allowed with list methods");
+    if (arguments.what == "methods") arguments.markdown ? listMethodsAsMarkdown() : listMethods();
+    if (arguments.what == "shadows") listShadows();
+    if (arguments.what == "modules") listModules();
+    if (arguments.what == "devices") listDevices();
+    if (arguments.what == "scenes") listScenes();
+}
+
+}  // namespace brume::app

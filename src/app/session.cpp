@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <app/session.hpp>
+#include <charconv>
+#include <cstdlib>
+
+namespace brume::app {
+namespace {
+
+constexpr int kMaxImageSize = 16384;
+
+std::string readEnvironment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+/// Empty where no folder can be used: then nothing is cached.
+std::filesystem::path findPipelineCacheFile() {
+    std::filesystem::path folder = readEnvironment("XDG_CACHE_HOME");
+    if (folder.empty() && !readEnvironment("HOME").empty())
+        folder = std::filesystem::path(readEnvironment("HOME")) / ".cache";
+    if (folder.empty()) return {};
+    folder /= "brume";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return error ? std::filesystem::path() : folder / "pipelines.bin";
+}
+
+std::optional<int> parseInteger(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+std::unique_ptr<gpu::Device> openDevice(const DeviceArguments& arguments, const Log& log) {
+    gpu::DeviceOptions options;
+    options.device = arguments.device.empty() ? readEnvironment("BRUME_DEVICE") : arguments.device;
+    options.validate = arguments.validate;
+    options.synchronizationValidation = arguments.validate;
+    options.pipelineCacheFile = findPipelineCacheFile();
+    return gpu::Device::create(options, log);
+}
+
+void checkValidation(const gpu::Device& device, const Log& log) {
+    const std::vector<std::string> messages = device.validationMessages();
+    if (messages.empty()) return;
+    for (const std::string& message : messages) log.error(message);
+    throw failure("validating", device.info().name,
+                  fmt::format("the validation layers reported {} messages, none is allowed",
+                              messages.size()));
+}
+
+ivec2 parseSize(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    const auto fail = [&] {
+        return inputError("reading options", "--size " + text,
+                          fmt::format("not WIDTHxHEIGHT with both in 1..{}", kMaxImageSize));
+    };
+    if (cross == std::string::npos) throw fail();
+    const auto width = parseInteger(std::string_view(text).substr(0, cross));
+    const auto height = parseInteger(std::string_view(text).substr(cross + 1));
+    if (!width || !height || *width < 1 || *height < 1 || *width > kMaxImageSize ||
+        *height > kMaxImageSize)
+        throw fail();
+    return {*width, *height};
+}
+
+scene::Settings parseSettings(const std::vector<std::string>& words) {
+    scene::Settings settings;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            throw inputError("reading options", "--set " + word, "not of the form key=value");
+        settings[word.substr(0, equals)] = word.substr(equals + 1);
+    }
+    return settings;
+}
+
+void printMetrics(const bench::ErrorMetrics& m) {
+    fmt::print("rmse      {:.3e}\nmax       {:.3e}\nbias      {:+.3e}\np99.9     {:.3e}\n", m.rmse,
+               m.max, m.bias, m.p999);
+    fmt::print("psnr      {:.2f} dB\nflip      {:.3e}\nnonFinite {}\nexcluded  {}\n", m.psnr,
+               m.flip, m.nonFinite, m.excluded);
+}
+
+}  // namespace brume::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering a scene with several methods and saying what each cost and how wrong it was.
+#pragma once
+
+#include <bench/row.hpp>
+#include <core/log.hpp>
+#include <functional>
+#include <gpu/device.hpp>
+#include <reference/reference.hpp>
+#include <render/renderer.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brume::bench {
+
+using ProgressCallback = std::function<void(double fraction)>;
+
+/// Collects the frames of one method and summarises them.
+class FrameSamples {
+  public:
+    void add(render::Result frame);
+
+    /// Writes time, passes, bytes and counters into the row.
+    void summariseInto(Row& row) const;
+
+    const render::Result& last() const { return mLast; }
+    bool isEmpty() const { return mTimesMs.empty(); }
+
+  private:
+    std::vector<double> mTimesMs;
+    std::vector<std::vector<double>> mPassTimesMs;  ///< per pass, per frame
+    render::Result mLast;
+};
+
+/// A row that says what is measured and where, without a measurement yet.
+Row describeRun(const std::string& sceneName, const scene::Scene& scene,
+                const render::Options& options, const gpu::DeviceInfo& device);
+
+/// Names of the shadow stores that the lights ask for, joined by '+'; "none" without any.
+std::string describeShadows(const scene::Scene& scene);
+
+/// Makes every light that casts shadows use that store ("none": no shadows).
+void overrideShadows(scene::Scene& scene, const std::string& shadow);
+
+/// The exact image of the scene with these particles.
+reference::Result renderReference(const render::PreparedScene& scene,
+                                  std::span<const scene::MediumSphere> particles,
+                                  const ProgressCallback& progress = {});
+
+/// Compares a frame with the exact image; where the two see different triangles (if the frame has
+/// hashes) the pixel is excluded.
+Comparison compareWithReference(const render::Result& frame, const reference::Result& exact);
+
+struct MeasureOptions {
+    std::vector<std::string> methods;  ///< names of oit::listMethods()
+    scene::Settings settings;          ///< each method gets those it knows
+    int repeats = 20;
+    int warmups = 1;
+    bool withError = true;  ///< compare with the reference
+    ProgressCallback progress;
+};
+
+/// One method on one scene.
+struct Measurement {
+    Row row;
+    Image image;                  ///< empty after a failure
+    std::vector<float> absolute;  ///< per pixel error, empty unless compared
+};
+
+/// Renders the scene with every method, taking turns frame by frame so that drift of clocks and
+/// load hits all alike. A method that fails gives a row that says why. Throws an input Error for an
+/// unknown method or a setting that no method knows.
+std::vector<Measurement> measureScene(gpu::Device& device, const std::string& sceneName,
+                                      const render::PreparedScene& scene,
+                                      const MeasureOptions& options, const Log& log);
+
+}  // namespace brume::bench

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bench/prepare.hpp>
+#include <particles/cpu_simulation.hpp>
+#include <volumes/vdb_file.hpp>
+#include <volumes/volume_spheres.hpp>
+
+namespace brume::bench {
+namespace {
+
+double largestExtinction(const scene::Medium& medium) {
+    return std::max({medium.extinction.x, medium.extinction.y, medium.extinction.z});
+}
+
+void addSceneSpheres(render::PreparedScene& prepared) {
+    for (const scene::Sphere& sphere : prepared.scene.spheres) {
+        scene::MediumSphere& added = prepared.spheres.emplace_back();
+        added.center = sphere.center;
+        added.radius = static_cast<float>(sphere.radius);
+        added.density = static_cast<float>(sphere.density);
+        added.medium = sphere.medium;
+        added.id = static_cast<std::uint32_t>(prepared.spheres.size() - 1);
+        added.profile = sphere.profile;
+    }
+}
+
+void addVolume(const scene::Volume& volume, const Log& log, render::PreparedScene& prepared) {
+    const double extinction = largestExtinction(prepared.scene.media[volume.medium]);
+    volumes::VolumeGrid grid = volumes::loadVolume(volume, extinction, log);
+    if (volume.representation == scene::VolumeRepresentation::Particles) {
+        volumes::SphereOptions options;
+        options.medium = volume.medium;
+        options.firstId = static_cast<std::uint32_t>(prepared.spheres.size());
+        const auto spheres = volumes::convertToSpheres(grid, options);
+        prepared.spheres.insert(prepared.spheres.end(), spheres.begin(), spheres.end());
+        volumes::VolumeGrid empty;
+        empty.name = grid.name;
+        empty.worldFromIndex = grid.worldFromIndex;
+        empty.report = grid.report;
+        grid = std::move(empty);
+    }
+    prepared.volumes.push_back(std::move(grid));
+}
+
+}  // namespace
+
+render::PreparedScene prepareScene(scene::Scene scene, const Log& log) {
+    render::PreparedScene prepared;
+    prepared.scene = std::move(scene);
+    addSceneSpheres(prepared);
+    for (const scene::Volume& volume : prepared.scene.volumes) addVolume(volume, log, prepared);
+    return prepared;
+}
+
+std::vector<scene::MediumSphere> simulateOnCpu(const scene::Scene& scene) {
+    std::vector<scene::MediumSphere> spheres;
+    // Ids above those that prepareScene() gives, so that ties are broken alike in every run.
+    std::uint64_t firstId = std::uint64_t{1} << 30;
+    for (std::size_t i = 0; i < scene.effects.size(); ++i) {
+        const scene::EffectInstance& effect = scene.effects[i];
+        particles::CpuSimulation simulation(effect.effect, effect.seed,
+                                            static_cast<std::uint32_t>(i));
+        simulation.advanceTo(effect.time);
+        const auto added = simulation.spheres(effect.worldFromEffect, effect.medium,
+                                              static_cast<std::uint32_t>(firstId));
+        spheres.insert(spheres.end(), added.begin(), added.end());
+        firstId += simulation.counters().born;
+    }
+    return spheres;
+}
+
+}  // namespace brume::bench

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a parsed scene to everything that renderers want: volumes loaded, spheres listed.
+#pragma once
+
+#include <core/log.hpp>
+#include <filesystem>
+#include <render/renderer.hpp>
+#include <scene/scene.hpp>
+#include <span>
+#include <vector>
+
+namespace brume::bench {
+
+/// Loads the scene's volumes and lists its spheres (volumes shown as particles become spheres and
+/// leave an empty grid). Ids of spheres count from 0 in the order of the scene. Throws an Error.
+render::PreparedScene prepareScene(scene::Scene scene, const Log& log);
+
+/// The particles of all effects at their times, simulated on the CPU in the scene's order. Throws
+/// an input Error for an effect that asks for an unknown module.
+std::vector<scene::MediumSphere> simulateOnCpu(const scene::Scene& scene);
+
+}  // namespace brume::bench

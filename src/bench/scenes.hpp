@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes made in code, on which methods are compared.
+#pragma once
+
+#include <scene/scene.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brume::bench {
+
+/// A built-in scene, or a family of them that is measured together.
+struct SceneInfo {
+    std::string_view name;
+    std::string_view summary;
+};
+
+std::span<const SceneInfo> listScenes();
+
+struct NamedScene {
+    std::string name;
+    scene::Scene scene;
+    int layerCount = 0;  ///< full-screen layers, for layer-pixels per second; else 0
+};
+
+/// The scenes of that name (`layers`: 16 of them; `layers_8_800x600`: one of those); empty if there
+/// is none.
+std::vector<NamedScene> makeScenes(std::string_view name);
+
+/// `layerCount` full-screen thin surfaces in shuffled order: the test of tables 1 and 2 in Barta,
+/// Kovacs, "Order Independent Transparency with Per-Pixel Linked Lists", 2011.
+scene::Scene makeLayers(int layerCount, int width, int height);
+
+/// `count` spheres of constant density, each `radiusPixels` wide on a 1280x720 image, at random
+/// places and distances; optical depth 0.4 through each centre.
+scene::Scene makeSpheres(int count, double radiusPixels);
+
+}  // namespace brume::bench
