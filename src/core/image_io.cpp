@@ -43,6 +43,8 @@ OpenImage openImage(const std::string& file, OIIO::Filesystem::IOProxy* proxy,
     // Alpha must not be multiplied into the colour: it means coverage, not light.
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;
+    // The readers look for the proxy here once they are given a configuration.
+    if (proxy) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     OpenImage image;
     image.input = OIIO::ImageInput::open(file, &config, proxy);
     if (!image.input) {
