@@ -8,6 +8,10 @@ add_library(brume_flags INTERFACE)
 target_compile_options(brume_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                                              -Wno-missing-field-initializers
                                              -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 sees overlapping copies in joined strings that are not there (GCC bug 105651).
+  target_compile_options(brume_flags INTERFACE -Wno-restrict)
+endif()
 if(BRUME_WERROR)
   target_compile_options(brume_flags INTERFACE -Werror)
 endif()

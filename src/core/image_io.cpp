@@ -7,9 +7,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <span>
 
 namespace brume {
 namespace {
@@ -29,6 +33,48 @@ double srgbFromLinear(double x) {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 
+std::uint32_t readBigEndian(const unsigned char* bytes) {
+    return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
+           std::uint32_t{bytes[2]} << 8 | bytes[3];
+}
+
+/// CRC-32 of the PNG specification (ISO 3309).
+std::uint32_t computeCrc(std::span<const unsigned char> bytes) {
+    static const std::array<std::uint32_t, 256> table = [] {
+        std::array<std::uint32_t, 256> values{};
+        for (std::uint32_t n = 0; n < 256; ++n) {
+            std::uint32_t c = n;
+            for (int k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320u ^ (c >> 1) : c >> 1;
+            values[n] = c;
+        }
+        return values;
+    }();
+    std::uint32_t c = 0xffffffffu;
+    for (const unsigned char byte : bytes) c = table[(c ^ byte) & 0xff] ^ (c >> 8);
+    return ~c;
+}
+
+bool isPng(std::span<const unsigned char> bytes) {
+    constexpr unsigned char kMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    return bytes.size() > sizeof kMagic && std::equal(kMagic, std::end(kMagic), bytes.begin());
+}
+
+/// Finds cut off and damaged PNG files before libpng does, which would print.
+void checkPng(std::span<const unsigned char> bytes, const std::string& name) {
+    constexpr std::size_t kSignature = 8, kFrame = 12;  // of a chunk: length, type, CRC
+    std::size_t offset = kSignature;
+    while (offset + kFrame <= bytes.size()) {
+        const std::size_t length = readBigEndian(&bytes[offset]);
+        if (length > bytes.size() - offset - kFrame) break;
+        const std::uint32_t crc = readBigEndian(&bytes[offset + 8 + length]);
+        if (computeCrc(bytes.subspan(offset + 4, length + 4)) != crc)
+            throw inputError(kReading, name, "the PNG file is damaged");
+        if (std::memcmp(&bytes[offset + 4], "IEND", 4) == 0) return;
+        offset += length + kFrame;
+    }
+    throw inputError(kReading, name, "the PNG file is cut off");
+}
+
 /// An image file that is open and whose header is plausible.
 struct OpenImage {
     std::unique_ptr<OIIO::ImageInput> input;
@@ -43,6 +89,8 @@ OpenImage openImage(const std::string& file, OIIO::Filesystem::IOProxy* proxy,
     // Alpha must not be multiplied into the colour: it means coverage, not light.
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;
+    // The readers look for the proxy here once they are given a configuration.
+    if (proxy) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     OpenImage image;
     image.input = OIIO::ImageInput::open(file, &config, proxy);
     if (!image.input) {
@@ -88,19 +136,28 @@ std::vector<vec4> readTexels(OpenImage image, const std::string& name, int& widt
 }
 
 /// OpenImageIO chooses its reader by the extension of a name.
-const char* recogniseFormat(const std::vector<unsigned char>& bytes, const std::string& name) {
-    const auto startsWith = [&bytes](std::initializer_list<unsigned char> magic) {
-        return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-    };
-    if (startsWith({0x89, 'P', 'N', 'G'})) return "memory.png";
-    if (startsWith({0xff, 0xd8, 0xff})) return "memory.jpg";
+const char* recogniseFormat(std::span<const unsigned char> bytes, const std::string& name) {
+    if (isPng(bytes)) {
+        checkPng(bytes, name);
+        return "memory.png";
+    }
+    if (bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff)
+        return "memory.jpg";
     throw inputError(kReading, name, "unknown image format, allowed are PNG and JPEG");
 }
 
-void requireFile(const std::filesystem::path& file) {
+OpenImage openFile(const std::filesystem::path& file, std::int64_t maxPixels) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
         throw inputError(kReading, file.string(), "no such file");
+    if (file.extension() == ".png") {
+        std::ifstream stream(file, std::ios::binary);
+        const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream),
+                                               std::istreambuf_iterator<char>()};
+        if (!isPng(bytes)) throw inputError(kReading, file.string(), "not a PNG file");
+        checkPng(bytes, file.string());
+    }
+    return openImage(file.string(), nullptr, file.string(), maxPixels);
 }
 
 std::vector<unsigned char> encodePixels(const Image& image) {
@@ -146,8 +203,7 @@ float toneMap(float radiance) {
 }
 
 Image readImage(const std::filesystem::path& file) {
-    requireFile(file);
-    OpenImage open = openImage(file.string(), nullptr, file.string(), kMaxPixels);
+    OpenImage open = openFile(file, kMaxPixels);
     Image image(open.width, open.height);
     const int channelCount = open.channelCount < 3 ? 1 : 3;
     readChannels(open, file.string(), channelCount, 3, &image.pixels[0][0]);
@@ -161,9 +217,7 @@ Image readImage(const std::filesystem::path& file) {
 }
 
 std::vector<vec4> readRgba(const std::filesystem::path& file, int& width, int& height) {
-    requireFile(file);
-    return readTexels(openImage(file.string(), nullptr, file.string(), kMaxTexels), file.string(),
-                      width, height);
+    return readTexels(openFile(file, kMaxTexels), file.string(), width, height);
 }
 
 std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::string& name,

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_test_util.hpp"
+
+#include <scene/loader.hpp>
+
+namespace brume::scene {
+namespace {
+
+using test::messageOf;
+
+Effect parse(const std::string& text) { return parseEffect(text, "e.json", Log()); }
+std::string parseMessage(const std::string& text) {
+    return messageOf([&] { parse(text); });
+}
+std::string withEmitter(const std::string& keys) {
+    return "{\"version\":1,\"medium\":\"m\",\"emitters\":[{\"lifetime\":1," + keys + "}]}";
+}
+
+TEST(Effect_AllKeys, DocumentedExample_IsReadInFull) {
+    const Effect effect =
+        parse(R"({ "version": 1, "capacity": 100000, "tickRate": 60, "medium": "smoke",
+      "emitters": [ { "rate": 2000, "bursts": [ { "time": 0.5, "count": 500 } ], "duration": 5,
+                      "shape": { "type": "sphere", "radius": 0.2, "position": [1, 2, 3] },
+                      "speed": [0.5,1], "direction": [0,2,0], "spread": 20, "lifetime": [2,4] } ],
+      "modules": [ { "type": "gravity", "acceleration": [0,-9.81,0] },
+                   { "type": "drag", "rate": 0.5, "wind": [1,0,0], "mode": "exact", "on": true } ],
+      "overLife": { "radius": [[0,0.05],[1,0.3]], "density": [[0,1],[1,0]],
+                    "tint": [[0,[1,1,1]],[1,[0.5,0.25,0]]] }, "profile": "smooth" })");
+    EXPECT_EQ(effect.capacity, 100000u);
+    EXPECT_EQ(effect.tickRate, 60);
+    EXPECT_EQ(effect.medium, "smoke");
+    EXPECT_TRUE(effect.smoothProfile);
+    ASSERT_EQ(effect.emitters.size(), 1u);
+    const Emitter& e = effect.emitters[0];
+    EXPECT_EQ(e.rate, 2000);
+    ASSERT_EQ(e.bursts.size(), 1u);
+    EXPECT_EQ(e.bursts[0].time, 0.5);
+    EXPECT_EQ(e.bursts[0].count, 500u);
+    EXPECT_EQ(e.duration, 5);
+    EXPECT_EQ(e.shape, EmitterShape::Sphere);
+    EXPECT_EQ(e.radius, 0.2);
+    EXPECT_EQ(e.position, dvec3(1, 2, 3));
+    EXPECT_EQ(e.speed, dvec2(0.5, 1));
+    EXPECT_EQ(e.direction, dvec3(0, 1, 0));
+    EXPECT_NEAR(e.spread, radians(20), 1e-15);
+    EXPECT_EQ(e.lifetime, dvec2(2, 4));
+    ASSERT_EQ(effect.modules.size(), 2u);
+    EXPECT_EQ(effect.modules[0].type, "gravity");
+    EXPECT_EQ(effect.modules[0].values.at("acceleration"), (std::vector<double>{0, -9.81, 0}));
+    EXPECT_EQ(effect.modules[1].values.at("rate"), std::vector<double>{0.5});
+    EXPECT_EQ(effect.modules[1].values.at("on"), std::vector<double>{1});
+    EXPECT_EQ(effect.modules[1].texts.at("mode"), "exact");
+    EXPECT_EQ(effect.modules[1].where, "e.json:6:20");
+    EXPECT_EQ(effect.modules[1].whereOf.at("rate"), "e.json:6:46");
+    EXPECT_EQ(effect.radius.keys.size(), 2u);
+    EXPECT_EQ(effect.radius.keys[1].second, 0.3);
+    EXPECT_EQ(effect.density.keys[1], (std::pair<double, double>(1, 0)));
+    EXPECT_EQ(effect.tint.keys[1].second, dvec3(0.5, 0.25, 0));
+}
+
+TEST(Effect_Shapes, EachType_ReadsItsKeys) {
+    EXPECT_EQ(
+        parse(withEmitter(R"("shape":{"type":"point","position":[1,0,0]})")).emitters[0].position,
+        dvec3(1, 0, 0));
+    EXPECT_EQ(parse(withEmitter(R"("shape":{"type":"box","size":[1,2,3]})")).emitters[0].size,
+              dvec3(1, 2, 3));
+    const Emitter disc =
+        parse(withEmitter(R"("shape":{"type":"disc","radius":2,"normal":[3,0,0]})")).emitters[0];
+    EXPECT_EQ(disc.shape, EmitterShape::Disc);
+    EXPECT_EQ(disc.normal, dvec3(1, 0, 0));
+    EXPECT_EQ(disc.radius, 2);
+}
+
+TEST(Effect_Defaults, ShortestFile_HasThem) {
+    const Effect effect = parse(R"({"version":1,"medium":"m","emitters":[{"lifetime":3}]})");
+    EXPECT_EQ(effect.capacity, 10000u);
+    EXPECT_EQ(effect.tickRate, 120);
+    EXPECT_FALSE(effect.smoothProfile);
+    EXPECT_EQ(effect.emitters[0].lifetime, dvec2(3));
+    EXPECT_EQ(effect.emitters[0].duration, kInfinity);
+    EXPECT_EQ(effect.radius.keys.size(), 1u);
+}
+
+TEST(Effect_Errors, EachFault_IsNamedAtItsPlace) {
+    const std::string start = "loading effect: e.json:1:";
+    EXPECT_EQ(parseMessage("{\"version\":1}"),
+              start + "1: key \"medium\": missing, must be a non-empty string");
+    EXPECT_EQ(parseMessage(withEmitter("\"speed\":[2,1]")),
+              start + "61: key \"emitters[0].speed\": is [high, low], must be [low, high]");
+    EXPECT_EQ(
+        parseMessage(withEmitter("\"speed\":\"fast\"")),
+        start +
+            "61: key \"emitters[0].speed\": is \"fast\", must be a number of at least 0, or an "
+            "array of 2, each a number of at least 0");
+    EXPECT_EQ(
+        parseMessage(withEmitter("\"direction\":[0,0,0]")),
+        start +
+            "65: key \"emitters[0].direction\": is zero, must be a direction of any length but "
+            "zero");
+    EXPECT_EQ(
+        parseMessage(withEmitter("\"shape\":{\"type\":\"sphere\"}")),
+        start + "61: key \"emitters[0].shape.radius\": missing, must be a number of at least 0");
+    EXPECT_EQ(parseMessage(withEmitter("\"shape\":{\"type\":\"cone\"}")),
+              start +
+                  "69: key \"emitters[0].shape.type\": is \"cone\", must be one of \"point\", "
+                  "\"sphere\", \"box\", \"disc\"");
+    EXPECT_EQ(parseMessage(withEmitter("\"colour\":1")),
+              start +
+                  "53: key \"emitters[0].colour\": unknown key, known are bursts, direction, "
+                  "duration, lifetime, rate, shape, speed, spread");
+    EXPECT_EQ(
+        parseMessage(R"({"version":1,"medium":"m","emitters":[{"lifetime":0}]})"),
+        start +
+            "51: key \"emitters[0].lifetime\": is 0, must be a number above 0, or an array of "
+            "2, each a number above 0");
+}
+
+TEST(Effect_Curves, UnsortedEmptyOrOutside_AreErrors) {
+    const auto message = [](const std::string& curve) {
+        return parseMessage(
+            "{\"version\":1,\"medium\":\"m\",\"emitters\":[],\n\"overLife\":{\"radius\":" + curve +
+            "}}");
+    };
+    const std::string start = "loading effect: e.json:2:";
+    EXPECT_EQ(message("[]"),
+              start +
+                  "22: key \"overLife.radius\": is an array of 0, must be an array of "
+                  "1 to 64, each an array [a number from 0 to 1, a number of at "
+                  "least 0]");
+    EXPECT_EQ(
+        message("[[0.5,1],[0.5,2]]"),
+        start +
+            "32: key \"overLife.radius[1][0]\": is not above the age before it, ages must rise");
+    EXPECT_EQ(message("[[1.5,1]]"),
+              start + "24: key \"overLife.radius[0][0]\": is 1.5, must be a number from 0 to 1");
+    EXPECT_EQ(message("[[0,1],[1,-1]]"),
+              start + "32: key \"overLife.radius[1][1]\": is -1, must be a number of at least 0");
+}
+
+TEST(Effect_Ranges, JustOutside_IsRefused) {
+    for (const char* keys : {"\"rate\":-1", "\"bursts\":[{\"time\":-1,\"count\":1}]",
+                             "\"bursts\":[{\"time\":0,\"count\":1.5}]", "\"duration\":0",
+                             "\"spread\":181", "\"shape\":{\"type\":\"box\",\"size\":[1,-1,1]}",
+                             "\"speed\":-1", "\"bursts\":[{\"time\":0}]", "\"shape\":7"})
+        EXPECT_NE(parseMessage(withEmitter(keys)), "no error") << keys;
+    for (const char* keys :
+         {"\"capacity\":0", "\"capacity\":67108865", "\"tickRate\":0.5", "\"tickRate\":10001",
+          "\"profile\":\"soft\"", "\"modules\":[{}]", "\"modules\":[{\"type\":\"a\",\"x\":{}}]"})
+        EXPECT_NE(parseMessage("{\"version\":1,\"medium\":\"m\",\"emitters\":[]," +
+                               std::string(keys) + "}"),
+                  "no error")
+            << keys;
+}
+
+}  // namespace
+}  // namespace brume::scene
