@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../common/bindings.glsl"
+#include "../common/angles.glsl"
 #include "../common/camera.glsl"
 
 layout(binding = kBindingOwn) uniform sampler2D environment;
@@ -12,7 +13,8 @@ layout(location = 1) out float opaqueT;
 // Latitude-longitude map, +y up; bilinear by hand, because filters round to 1/256 texel.
 vec3 environmentRadiance(vec3 d) {
     vec2 size = vec2(frame.environmentSize);
-    vec2 uv = vec2(atan(d.x, -d.z) * 0.15915494309189535 + 0.5, acos(clamp(d.y, -1.0, 1.0)) * 0.3183098861837907);
+    vec2 uv = vec2(preciseAtan2(d.x, -d.z) * 0.15915494309189535 + 0.5,
+                   preciseAtan2(length(d.xz), d.y) * 0.3183098861837907);
     vec2 position = uv * size - 0.5;
     vec2 corner = floor(position), f = position - corner;
     ivec2 low = ivec2(corner), last = ivec2(frame.environmentSize) - 1;
