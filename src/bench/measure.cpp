@@ -17,6 +17,7 @@ const oit::MethodInfo* findMethod(const std::string& name) {
 }
 
 bool knowsSetting(const oit::MethodInfo& info, const std::string& key) {
+    if (key == "shuffle") return true;  // the renderer's own: in which order things are submitted
     return std::any_of(info.settings.begin(), info.settings.end(),
                        [&](const oit::SettingInfo& setting) { return setting.name == key; });
 }

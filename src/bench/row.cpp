@@ -29,7 +29,7 @@ Json bytesJson(const Row& row) {
     bytes["perPixel"] =
         bytes["total"].get<double>() / (static_cast<double>(row.width) * row.height);
     for (const auto& [kind, count] : row.bytes)
-        if (kind != "total") bytes[kind] = count;
+        if (kind != "total" && kind != "perPixel") bytes[kind] = count;
     return bytes;
 }
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// `brume render` and `brume bench` from outside, on whatever Vulkan device there is.
+#include <gtest/gtest.h>
+
+#include <core/image_io.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "process.hpp"
+
+namespace brume::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// A glass pane, a smooth and a constant sphere that overlap, lit, over an opaque floor.
+const char* const kScene = R"({ "version": 1,
+  "camera": { "type": "perspective", "position": [0, 1, 5], "target": [0, 0.5, 0], "up": [0, 1, 0], "verticalFov": 40 },
+  "image": { "width": 96, "height": 64 },
+  "background": { "radiance": [0.1, 0.2, 0.3] },
+  "lights": [ { "type": "ambient", "radiance": [0.3, 0.3, 0.3] },
+              { "type": "directional", "direction": [0.6, -0.7, -0.39], "irradiance": [3, 3, 3] } ],
+  "materials": { "floor": { "type": "opaque", "albedo": [0.5, 0.5, 0.5] },
+                 "pane": { "type": "thin", "coverage": 1, "transmission": [0.9, 0.2, 0.1] } },
+  "media": { "smoke": { "extinction": [2, 3, 4], "albedo": [0.9, 0.8, 0.7] } },
+  "meshes": [ { "shape": "plane", "size": [10, 10], "material": "floor" },
+              { "shape": "box", "size": [1, 1, 0.1], "material": "pane", "transform": { "translate": [0, 0.7, 0.5] } } ],
+  "spheres": [ { "center": [0, 0.6, 0], "radius": 0.7, "medium": "smoke", "density": 1, "profile": "smooth" },
+               { "center": [0.5, 0.6, 0.3], "radius": 0.5, "medium": "smoke", "density": 0.5, "profile": "constant" } ] })";
+
+const char* const kSparks = R"({ "version": 1, "capacity": 500, "tickRate": 60, "medium": "smoke",
+  "emitters": [ { "rate": 200, "shape": { "type": "sphere", "radius": 0.3 }, "speed": [0.5, 1],
+                  "direction": [0, 1, 0], "spread": 30, "lifetime": [1, 2] } ],
+  "modules": [ { "type": "gravity", "acceleration": [0, -1, 0] } ],
+  "overLife": { "radius": [[0, 0.05], [1, 0.2]] }, "profile": "smooth" })";
+
+const char* const kEffectScene = R"({ "version": 1,
+  "image": { "width": 64, "height": 48 },
+  "lights": [ { "type": "ambient", "radiance": [1, 1, 1] } ],
+  "media": { "smoke": { "extinction": [4, 4, 4], "albedo": [0.9, 0.8, 0.7] } },
+  "effects": [ { "file": "sparks.effect.json", "seed": 7, "time": 1.5 } ] })";
+
+class RenderCommandLine : public testing::Test {
+  protected:
+    RenderCommandLine() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        mFolder = fs::temp_directory_path() / (std::string("brume_render_") + test->name());
+        fs::remove_all(mFolder);
+        fs::create_directories(mFolder);
+        std::ofstream(mFolder / "scene.json") << kScene;
+        std::ofstream(mFolder / "sparks.effect.json") << kSparks;
+        std::ofstream(mFolder / "sparks.json") << kEffectScene;
+    }
+    ~RenderCommandLine() override { fs::remove_all(mFolder); }
+
+    std::string path(const std::string& name) const { return (mFolder / name).string(); }
+    Json readJson(const std::string& name) const {
+        return Json::parse(std::ifstream(mFolder / name));
+    }
+
+    /// Runs `brume render scene <arguments>` and expects it to be done without a word on stderr.
+    Outcome render(const std::string& scene, std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"render", path(scene)});
+        Outcome outcome = runBrume(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        return outcome;
+    }
+
+    fs::path mFolder;
+};
+
+TEST_F(RenderCommandLine, Reference_WritesImageAndRow) {
+    const Outcome outcome = render(
+        "scene.json", {"--method", "reference", "-o", path("r.exr"), "--json", path("r.json")});
+    EXPECT_NE(outcome.out.find("96x64 reference"), std::string::npos) << outcome.out;
+    EXPECT_EQ(readImage(mFolder / "r.exr").width, 96);
+    const Json json = readJson("r.json");
+    EXPECT_EQ(json["method"], "reference");
+    EXPECT_EQ(json["size"], Json::parse("[96, 64]"));
+    EXPECT_GT(json["timeMs"]["median"], 0);
+}
+
+TEST_F(RenderCommandLine, Size_ChangesTheImage) {
+    render("scene.json", {"--method", "reference", "-o", path("r.png"), "--size", "33x17"});
+    const Image image = readImage(mFolder / "r.png");
+    EXPECT_EQ(image.width, 33);
+    EXPECT_EQ(image.height, 17);
+}
+
+TEST_F(RenderCommandLine, AgainstItsOwnFile_IsZero) {
+    render("scene.json", {"--method", "reference", "-o", path("r.exr")});
+    render("scene.json",
+           {"--method", "reference", "--against", path("r.exr"), "--json", path("r.json")});
+    EXPECT_EQ(readJson("r.json")["error"]["max"], 0);
+}
+
+TEST_F(RenderCommandLine, LinkedListAgainstReference_IsExact) {
+    const Outcome outcome =
+        render("scene.json", {"--method", "linked_list", "--against", "reference", "--explain",
+                              "--validate", "--json", path("r.json")});
+    const Json json = readJson("r.json");
+    EXPECT_LE(json["error"]["rmse"], 2e-5);
+    EXPECT_LE(json["error"]["max"], 2e-3);
+    EXPECT_EQ(json["error"]["nonFinite"], 0);
+    EXPECT_LE(json["error"]["excluded"], 96 * 64 / 50);
+    EXPECT_EQ(json["counters"]["dropped"], 0);
+    EXPECT_GT(json["bytes"]["total"], 0);
+    std::set<std::string> passes;
+    for (const Json& pass : json["passes"]) passes.insert(pass["name"].get<std::string>());
+    EXPECT_TRUE(passes.contains("oit.linked_list.resolve"));
+    EXPECT_NE(outcome.out.find("error against reference"), std::string::npos);
+}
+
+TEST_F(RenderCommandLine, Particles_AreThoseOfTheReferenceSimulation) {
+    render("sparks.json", {"--method", "reference", "-o", path("r.exr")});
+    render("sparks.json",
+           {"--method", "linked_list", "--against", path("r.exr"), "--json", path("r.json")});
+    const Json json = readJson("r.json");
+    EXPECT_LE(json["error"]["rmse"], 2e-5);
+    EXPECT_GT(json["counters"]["stored"], 100);
+}
+
+TEST_F(RenderCommandLine, Frames_AreNumberedAndMove) {
+    render("sparks.json", {"--method", "reference", "--frames", "23:24", "-o", path("f.##.exr"),
+                           "--json", path("f.json")});
+    const Image first = readImage(mFolder / "f.23.exr"), second = readImage(mFolder / "f.24.exr");
+    EXPECT_NE(computeHash(first), computeHash(second));
+    EXPECT_EQ(readJson("f.json")["frames"].size(), 2u);
+    // Frame 36 at 24 frames per second is the scene's own time.
+    render("sparks.json", {"--method", "reference", "--frame", "36", "-o", path("a.exr")});
+    render("sparks.json", {"--method", "reference", "-o", path("b.exr")});
+    EXPECT_EQ(computeHash(readImage(mFolder / "a.exr")), computeHash(readImage(mFolder / "b.exr")));
+}
+
+TEST_F(RenderCommandLine, Seed_ChangesTheParticles) {
+    render("sparks.json", {"--method", "reference", "--seed", "7", "-o", path("a.exr")});
+    render("sparks.json", {"--method", "reference", "--seed", "8", "-o", path("b.exr")});
+    render("sparks.json", {"--method", "reference", "-o", path("c.exr")});
+    EXPECT_NE(computeHash(readImage(mFolder / "a.exr")), computeHash(readImage(mFolder / "b.exr")));
+    EXPECT_EQ(computeHash(readImage(mFolder / "a.exr")), computeHash(readImage(mFolder / "c.exr")));
+}
+
+TEST_F(RenderCommandLine, UnknownMethodSettingOrDevice_IsOneLineAndCodeTwo) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"--method", "magic"},
+             {"--method", "linked_list", "--set", "no_such_setting=1"},
+             {"--device", "no such device"}}) {
+        std::vector<std::string> words = {"render", path("scene.json")};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = runBrume(words);
+        EXPECT_EQ(outcome.exitCode, 2) << outcome.out;
+        EXPECT_TRUE(isOneErrorLine(outcome.err)) << outcome.err;
+    }
+}
+
+TEST_F(RenderCommandLine, DeviceOfTheEnvironment_IsUsed) {
+    const Outcome outcome =
+        runBrume({"render", path("scene.json")}, {.environment = "BRUME_DEVICE=no such device"});
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_NE(outcome.err.find("no such device"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RenderCommandLine, Bench_GivesOneRowPerSceneAndMethod) {
+    const Outcome outcome = runBrume({"bench", "--scenes", "layers_2_800x600," + path("scene.json"),
+                                      "--methods", "all", "--size", "64x48", "--repeats", "2",
+                                      "--json", path("b.json"), "--report", path("report")});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json rows = readJson("b.json")["rows"];
+    ASSERT_EQ(rows.size() % 2, 0u);
+    EXPECT_GE(rows.size(), 2u);
+    for (const Json& row : rows) {
+        EXPECT_EQ(row["timeMs"]["repeats"], 2);
+        EXPECT_TRUE(row.contains("error")) << row;
+        if (row["method"] == "linked_list") {
+            EXPECT_LE(row["error"]["rmse"], 2e-5) << row["scene"];
+        }
+    }
+    EXPECT_GT(rows[0]["layerPixelsPerSecond"], 0);
+    EXPECT_TRUE(fs::exists(mFolder / "report/report.md"));
+}
+
+TEST_F(RenderCommandLine, SimulateOnDevice_EqualsTheReference) {
+    const std::string effect = path("sparks.effect.json");
+    runBrume({"simulate", effect, "--json", path("a.json")});
+    runBrume({"simulate", effect, "--reference", "--json", path("b.json")});
+    for (const char* key : {"hash", "alive", "born", "died", "rejected"})
+        EXPECT_EQ(readJson("a.json")[key], readJson("b.json")[key]) << key;
+}
+
+}  // namespace
+}  // namespace brume::app
