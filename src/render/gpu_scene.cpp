@@ -100,7 +100,7 @@ Box3 findBounds(const PreparedScene& prepared) {
 
 }  // namespace
 
-GpuScene::GpuScene(gpu::Submitter& submitter, const PreparedScene& prepared, std::uint64_t shuffle)
+GpuScene::GpuScene(gpu::Submitter& submitter, const PreparedScene& prepared)
     : mNeeds(findNeeds(prepared)),
       mTextureSampler(submitter.device(), {.name = "render.texture_sampler",
                                            .filter = gpu::Filter::Linear,
@@ -109,7 +109,7 @@ GpuScene::GpuScene(gpu::Submitter& submitter, const PreparedScene& prepared, std
       mTexelSampler(submitter.device(),
                     {.name = "render.texel_sampler", .filter = gpu::Filter::Nearest}) {
     findCamera(prepared);
-    uploadMedia(submitter, prepared, shuffle);
+    uploadSpheres(submitter, prepared);
     uploadVolumes(submitter, prepared);
     uploadMeshes(submitter, prepared);
     uploadFrame(submitter, prepared);
@@ -190,15 +190,10 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
     mMedia = makeArray(submitter, "render.media", std::move(media));
 }
 
-void GpuScene::uploadMedia(gpu::Submitter& submitter, const PreparedScene& prepared,
-                           std::uint64_t shuffle) {
+void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& prepared) {
     std::vector<shader::SphereData> spheres;
     for (const scene::MediumSphere& sphere : prepared.spheres)
         spheres.push_back(makeSphere(sphere, mCamera.position));
-    if (shuffle != 0) {
-        std::mt19937_64 random(shuffle);
-        std::shuffle(spheres.begin(), spheres.end(), random);
-    }
     mSphereIdsAscend = std::is_sorted(spheres.begin(), spheres.end(),
                                       [](const auto& a, const auto& b) { return a.id < b.id; });
     for (const scene::EffectInstance& effect : prepared.scene.effects) {
@@ -207,6 +202,15 @@ void GpuScene::uploadMedia(gpu::Submitter& submitter, const PreparedScene& prepa
     }
     mSphereCount = static_cast<std::uint32_t>(spheres.size());
     mSpheres = makeArray(submitter, "render.spheres", std::move(spheres));
+}
+
+void GpuScene::shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed) {
+    if (mSphereCount == 0) return;
+    auto spheres = submitter.readBuffer<shader::SphereData>(mSpheres, mSphereCount);
+    std::mt19937_64 random(seed);
+    std::shuffle(spheres.begin(), spheres.end(), random);
+    mSpheres = makeArray(submitter, "render.spheres", std::move(spheres));
+    mSphereIdsAscend = false;
 }
 
 void GpuScene::uploadVolumes(gpu::Submitter& submitter, const PreparedScene& prepared) {

@@ -17,8 +17,10 @@ namespace brume::render {
 /// Uploaded once per scene, camera and size.
 class GpuScene {
   public:
-    /// `shuffle` != 0: spheres are stored in an order drawn with that seed (the image must not change).
-    GpuScene(gpu::Submitter& submitter, const PreparedScene& scene, std::uint64_t shuffle);
+    GpuScene(gpu::Submitter& submitter, const PreparedScene& scene);
+
+    /// Puts all spheres, those of effects too, into an order drawn with that seed: no image may change.
+    void shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed);
 
     const scene::CameraFrame& camera() const { return mCamera; }  ///< of the samples; may stand in front of the scene's (orthographic)
     VkExtent2D extent() const;
@@ -36,7 +38,7 @@ class GpuScene {
   private:
     void findCamera(const PreparedScene& scene);
     void uploadFrame(gpu::Submitter& submitter, const PreparedScene& scene);
-    void uploadMedia(gpu::Submitter& submitter, const PreparedScene& scene, std::uint64_t shuffle);
+    void uploadSpheres(gpu::Submitter& submitter, const PreparedScene& scene);
     void uploadVolumes(gpu::Submitter& submitter, const PreparedScene& scene);
     void uploadMeshes(gpu::Submitter& submitter, const PreparedScene& scene);
     const gpu::Image* uploadTexture(gpu::Submitter& submitter, const scene::Texture* texture);

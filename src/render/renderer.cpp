@@ -3,6 +3,7 @@
 #include <frame/frame_builder.hpp>
 #include <gpu/device.hpp>
 #include <oit/oit_method.hpp>
+#include <render/effect_particles.hpp>
 #include <render/gpu_scene.hpp>
 #include <render/needs.hpp>
 #include <render/opaque_pass.hpp>
@@ -37,9 +38,15 @@ struct Renderer::Impl {
           submitter(device),
           pool(device),
           timers(device),
-          scene(submitter, prepared, shuffle),
-          opaque(device),
-          method(oit::createMethod(options.method, device, scene.makeInputs(), options.settings)) {
+          scene(submitter, prepared),
+          effects(submitter, prepared),
+          opaque(device) {
+        if (shuffle != 0) {
+            measure([](frame::FrameBuilder&, const oit::Inputs&) {});
+            scene.shuffleSpheres(submitter, shuffle);
+            areSpheresFinal = true;
+        }
+        method = oit::createMethod(options.method, device, scene.makeInputs(), options.settings);
         const std::uint64_t pixels = std::uint64_t{scene.extent().width} * scene.extent().height;
         image = gpu::Buffer(device, {.name = "render.image_read",
                                      .bytes = 16 * pixels,
@@ -57,6 +64,7 @@ struct Renderer::Impl {
     oit::Inputs declareInputs(frame::FrameBuilder& frame) {
         oit::Inputs inputs = scene.makeInputs();
         inputs.spheres = frame.importBuffer(scene.spheres());
+        if (!areSpheresFinal) effects.declare(frame, scene, inputs.spheres);
         opaque.declare(frame, scene, inputs);
         return inputs;
     }
@@ -107,6 +115,7 @@ struct Renderer::Impl {
         std::map<std::string, std::uint64_t> kinds = method->bytes();
         kinds["scene"] = scene.bytes();
         kinds["targets"] = pool.bytes();
+        kinds["particles"] = effects.bytes();
         std::uint64_t total = 0;
         for (const auto& [kind, count] : kinds) total += count;
         kinds["total"] = total;
@@ -123,7 +132,9 @@ struct Renderer::Impl {
     frame::ResourcePool pool;
     gpu::TimerPool timers;
     GpuScene scene;
+    EffectParticles effects;
     OpaquePass opaque;
+    bool areSpheresFinal = false;  // no effect writes them any more
     std::unique_ptr<oit::OitMethod> method;
     gpu::Buffer image, triangles, trianglesRead;
 };
@@ -165,7 +176,9 @@ Result Renderer::renderFrame() {
     return result;
 }
 
-std::vector<scene::MediumSphere> Renderer::readParticles() const { return {}; }
+std::vector<scene::MediumSphere> Renderer::readParticles() const {
+    return mImpl->effects.readSpheres(mImpl->submitter);
+}
 
 std::string Renderer::explain() const {
     frame::FrameBuilder frame(mImpl->pool);

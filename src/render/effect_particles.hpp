@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene's particle effects on the device: simulated to their time, shown as spheres.
+#pragma once
+
+#include <frame/frame_builder.hpp>
+#include <gpu/submitter.hpp>
+#include <particles/gpu_simulation.hpp>
+#include <render/gpu_scene.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace brume::render {
+
+class EffectParticles {
+  public:
+    /// Simulates every effect of the scene up to its time.
+    EffectParticles(gpu::Submitter& submitter, const PreparedScene& scene);
+
+    /// Pass "particles.appearance": fills the effects' slots of `spheres`. Nothing without effects.
+    void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
+
+    std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
+    std::uint64_t bytes() const;
+
+  private:
+    const PreparedScene* mPrepared;
+    std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
+};
+
+/// Id of the first particle of an effect; ids only order what begins at equal distances.
+std::uint32_t firstParticleId(std::size_t effect);
+
+}  // namespace brume::render
