@@ -68,16 +68,24 @@ Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
     return nodes;
 }
 
-// A step short enough for three nodes near every light: 1/d^2 has its pole d away from the ray.
+// A step short enough for three nodes near every light: 1/d^2 has its poles at the light, and a kink
+// where it is capped at the light's radius, which steps must not cross.
 float limitStepByLights(float position) {
     float limit = kFar;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         if (lights[i].type == kLightDirectional) continue;
+        float radius = lights[i].radius;
         vec3 offset = lights[i].position - ray.origin;
-        float ahead = dot(offset, ray.direction) - position;
-        float aside = length(offset - (ahead + position) * ray.direction);
-        float distance = sqrt(ahead * ahead + aside * aside);
-        limit = min(limit, max(ahead > 0.0 ? distance / 3.0 : distance * 0.5, 0.5 * max(aside, lights[i].radius)));
+        float nearest = dot(offset, ray.direction), ahead = nearest - position;
+        vec3 across = offset - nearest * ray.direction;
+        float aside2 = dot(across, across);
+        float distance = sqrt(ahead * ahead + aside2);
+        float chord = sqrt(max(radius * radius - aside2, 0.0));
+        float enter = ahead - chord, leave = ahead + chord, slack = 1e-3 * radius;
+        float own = ahead > 0.0 ? max(distance / 3.0, 0.5 * sqrt(aside2)) : distance * 0.5;
+        if (enter > slack) own = min(own, chord > 0.0 ? enter : own);
+        else if (leave > slack) own = min(leave, 0.5 * radius);
+        limit = min(limit, max(own, slack));
     }
     return limit;
 }
