@@ -12,6 +12,13 @@
 
 BRUME_STRUCTS_BEGIN
 
+BRUME_CONST uint kTinyBits = 0x1e3ce508u;  // of 1e-20
+BRUME_CONST uint kHugeBits = 0x5d5e0b6bu;  // of 1e18
+
+/// Orders floats by magnitude, with infinity and NaN (of which compilers assume that it never is)
+/// on top.
+BRUME_SHARED uint magnitudeBits(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
+
 /// Age in ticks at the end of `tick`.
 BRUME_SHARED float ageTicks(ParticleLife life, uint tick) {
     BRUME_PRECISE float age = float(tick - life.birthTick) + life.birthRemaining;
@@ -41,16 +48,20 @@ BRUME_SHARED void integrate(BRUME_INOUT(vec3) position, BRUME_INOUT(vec3) veloci
     BRUME_PRECISE vec3 v = velocity + (acceleration * velocityGain - slip * loss);
     position = x;
     // Devices differ in how they treat denormal numbers, so speeds end long before those.
-    velocity = vec3(abs(v.x) < 1e-20f ? 0.0f : v.x, abs(v.y) < 1e-20f ? 0.0f : v.y,
-                    abs(v.z) < 1e-20f ? 0.0f : v.z);
+    velocity = vec3(magnitudeBits(v.x) < kTinyBits ? 0.0f : v.x,
+                    magnitudeBits(v.y) < kTinyBits ? 0.0f : v.y,
+                    magnitudeBits(v.z) < kTinyBits ? 0.0f : v.z);
 }
 
 /// Kills what has left the range of floats or is NaN: it is gone in the next tick.
 BRUME_SHARED void killIfNotFinite(BRUME_INOUT(Particle) particle) {
-    bool finite = abs(particle.position.x) < 1e18f && abs(particle.position.y) < 1e18f &&
-                  abs(particle.position.z) < 1e18f && abs(particle.velocity.x) < 1e18f &&
-                  abs(particle.velocity.y) < 1e18f && abs(particle.velocity.z) < 1e18f;
-    if (!finite) {
+    bool isFinite = magnitudeBits(particle.position.x) < kHugeBits &&
+                    magnitudeBits(particle.position.y) < kHugeBits &&
+                    magnitudeBits(particle.position.z) < kHugeBits &&
+                    magnitudeBits(particle.velocity.x) < kHugeBits &&
+                    magnitudeBits(particle.velocity.y) < kHugeBits &&
+                    magnitudeBits(particle.velocity.z) < kHugeBits;
+    if (!isFinite) {
         particle.position = vec3(0.0f);
         particle.velocity = vec3(0.0f);
         particle.life.lifetimeTicks = -1.0f;
@@ -72,8 +83,8 @@ BRUME_SHARED void stepNewParticle(BRUME_EFFECT_PARAMETER BRUME_INOUT(Particle) p
     BRUME_PRECISE float part = particle.life.birthRemaining;
     BRUME_PRECISE float seconds = BRUME_EFFECT.step.tickSeconds * part;
     BRUME_PRECISE float loss, phi1, phi2;
-    exponentialFactors(BRUME_EFFECT.step.dragPerTick * part, BRUME_EFFECT.step.dragHalvings, loss,
-                       phi1, phi2);
+    BRUME_PRECISE float drag = BRUME_EFFECT.step.dragPerTick * part;
+    exponentialFactors(drag, BRUME_EFFECT.step.dragHalvings, loss, phi1, phi2);
     BRUME_PRECISE float velocityGain = seconds * phi1;
     BRUME_PRECISE float positionGain = seconds * seconds * phi2;
     BRUME_PRECISE vec3 acceleration =

@@ -177,6 +177,13 @@ shader::AppearanceParameters appearanceParameters(const scene::Effect& effect) {
     return p;
 }
 
+double longestLifetime(const scene::Effect& effect) {
+    double longest = 0;
+    for (const scene::Emitter& emitter : effect.emitters)
+        longest = std::max(longest, emitter.lifetime.y);
+    return longest;
+}
+
 }  // namespace
 
 CompiledEffect compileEffect(const scene::Effect& effect, std::uint64_t seed,
@@ -188,7 +195,8 @@ CompiledEffect compileEffect(const scene::Effect& effect, std::uint64_t seed,
         .profile = effect.smoothProfile ? scene::Profile::Smooth : scene::Profile::Constant,
         .parameters = {},
         .emitters = {},
-        .schedule = SpawnSchedule(effect)};
+        .schedule = SpawnSchedule(effect),
+        .aliveBound = AliveBound(effect.capacity, longestLifetime(effect) * effect.tickRate)};
     compiled.parameters.random = {static_cast<std::uint32_t>(seed),
                                   static_cast<std::uint32_t>(seed >> 32u), instance};
     ModuleSums sums;

@@ -24,6 +24,7 @@ struct CompiledEffect {
     shader::EffectParameters parameters{};
     std::vector<shader::EmitterParameters> emitters;
     SpawnSchedule schedule;  ///< at tick 0
+    AliveBound aliveBound;   ///< at tick 0
 };
 
 /// Equal arguments give equal particles; another seed or instance gives independent ones. Throws an

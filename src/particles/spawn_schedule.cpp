@@ -92,4 +92,25 @@ void SpawnSchedule::addBatch(std::uint32_t emitterIndex, std::uint64_t count, fl
     mNextBirthIndex += count;
 }
 
+AliveBound::AliveBound(std::uint32_t capacity, double longestLifetimeTicks)
+    : mCapacity(capacity), mWindow(0) {
+    constexpr double kLongestWindow = 1e5;  // keeps the memory small; chosen by us
+    if (longestLifetimeTicks < kLongestWindow)
+        mWindow = static_cast<std::size_t>(std::ceil(longestLifetimeTicks)) + 2;
+}
+
+void AliveBound::addTick(std::uint32_t births) {
+    mSum += births;
+    if (mWindow == 0) return;
+    mRecent.push_back(births);
+    if (mRecent.size() > mWindow) {
+        mSum -= mRecent.front();
+        mRecent.pop_front();
+    }
+}
+
+std::uint32_t AliveBound::value() const {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(mSum, mCapacity));
+}
+
 }  // namespace brume::particles

@@ -7,6 +7,7 @@
 #include <scene/effect.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace brume::particles {
@@ -57,6 +58,22 @@ class SpawnSchedule {
     std::uint64_t mNextBirthIndex = 0;
     std::uint32_t mCapacity = 0;
     std::uint32_t mMaxBatches = 0;
+};
+
+/// How many particles can be alive at most, from births and the longest lifetime alone; for a
+/// caller that cannot look.
+class AliveBound {
+  public:
+    AliveBound(std::uint32_t capacity, double longestLifetimeTicks);
+
+    void addTick(std::uint32_t births);
+    std::uint32_t value() const;
+
+  private:
+    std::uint32_t mCapacity;
+    std::size_t mWindow;                // ticks after which a birth is surely over; 0: never
+    std::deque<std::uint32_t> mRecent;  // births per tick within the window
+    std::uint64_t mSum = 0;
 };
 
 }  // namespace brume::particles

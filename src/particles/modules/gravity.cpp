@@ -17,8 +17,8 @@ Module module() {
                        .unit = "m/s^2",
                        .summary = "in effect space",
                        .fallback = {0, -9.81, 0},
-                       .lo = -1e6,
-                       .hi = 1e6}}},
+                       .lo = -1e12,
+                       .hi = 1e12}}},
             add};
 }
 

@@ -1,0 +1,35 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Writes the particles as spheres in the camera's space; slots without a particle get radius 0.
+#extension GL_GOOGLE_include_directive : require
+#include "passes.h"
+
+#include "effect_block.glsl"
+#include "appearance.h"
+
+layout(local_size_x_id = 0) in;
+layout(push_constant, scalar) uniform Push { AppearancePush push; };
+layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
+layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
+layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
+layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals; };
+layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer ParticleSpheresBlock { SphereData spheres[]; };
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x +
+                gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    if (slot >= push.slots) return;
+    SphereData sphere = SphereData(vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
+    if (slot < totals.counters.alive) {
+        ParticleLife life = lives[slot];
+        Appearance appearance = evaluateAppearance(normalisedAge(life, push.lastTick));
+        vec3 position = positions[slot];
+        sphere.center = push.origin + push.axisX * position.x + push.axisY * position.y +
+                        push.axisZ * position.z;
+        sphere.radius = life.lifetimeTicks < 0 ? 0 : appearance.radius * push.radiusScale;
+        sphere.tint = appearance.tint;
+        sphere.density = appearance.density;
+        sphere.id = push.firstId + birthIndices[slot];
+    }
+    spheres[push.firstSphere + slot] = sphere;
+}
