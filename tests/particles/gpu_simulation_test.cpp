@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <particles/cpu_simulation.hpp>
+#include <particles/gpu_simulation.hpp>
+
+#include "effects.hpp"
+
+#include <cstring>
+
+namespace brume::particles {
+namespace {
+
+/// A device with validation; a message fails the test.
+class GpuSimulationTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        sDevice = gpu::Device::create({.device = {},
+                                       .validate = true,
+                                       .synchronizationValidation = true,
+                                       .pipelineCacheFile = {}},
+                                      Log());
+        sSubmitter = std::make_unique<gpu::Submitter>(*sDevice);
+    }
+    static void TearDownTestSuite() {
+        sSubmitter.reset();
+        sDevice.reset();
+    }
+    void TearDown() override {
+        for (const std::string& message : sDevice->validationMessages()) ADD_FAILURE() << message;
+    }
+
+    gpu::Device& device() { return *sDevice; }
+
+    void runTicks(GpuSimulation& simulation, std::uint64_t ticks) {
+        sSubmitter->submitAndWait(
+            "ticks", [&](gpu::Commands& commands) { simulation.recordTicks(commands, ticks); });
+    }
+
+    /// Names the first particle that differs.
+    void expectSame(const GpuSimulation& gpu, const CpuSimulation& cpu) {
+        const GpuSimulation::Snapshot snapshot = gpu.readState(*sSubmitter);
+        const Counters &a = snapshot.counters, &b = cpu.counters();
+        EXPECT_EQ(snapshot.tick, cpu.tick());
+        EXPECT_EQ(a.alive, b.alive);
+        EXPECT_EQ(a.born, b.born);
+        EXPECT_EQ(a.died, b.died);
+        EXPECT_EQ(a.rejected, b.rejected);
+        EXPECT_LE(a.alive, gpu.slotCount());
+        ASSERT_EQ(snapshot.particles.size(), cpu.particles().size());
+        for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
+            const Particle &p = snapshot.particles[i], &q = cpu.particles()[i];
+            ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0)
+                << "particle " << i << ", birth " << p.birthIndex << " and " << q.birthIndex
+                << ", position " << p.position.x << " " << p.position.y << " " << p.position.z
+                << " and " << q.position.x << " " << q.position.y << " " << q.position.z;
+        }
+        EXPECT_EQ(snapshot.hash(), cpu.hash());
+    }
+
+    static std::unique_ptr<gpu::Device> sDevice;
+    static std::unique_ptr<gpu::Submitter> sSubmitter;
+};
+
+std::unique_ptr<gpu::Device> GpuSimulationTest::sDevice;
+std::unique_ptr<gpu::Submitter> GpuSimulationTest::sSubmitter;
+
+TEST_F(GpuSimulationTest, FirstTicks_GiveTheBitsOfTheTwin) {
+    GpuSimulation gpu(device(), busyEffect(), 17, 3);
+    CpuSimulation cpu(busyEffect(), 17, 3);
+    expectSame(gpu, cpu);
+    for (int i = 0; i < 5; ++i) {
+        runTicks(gpu, 1);
+        cpu.step(1);
+        expectSame(gpu, cpu);
+    }
+}
+
+TEST_F(GpuSimulationTest, ThousandTicksOfAllModules_GiveTheBitsOfTheTwin) {
+    GpuSimulation gpu(device(), busyEffect(), 1);
+    CpuSimulation cpu(busyEffect(), 1);
+    for (const int ticks : {1, 9, 90, 400, 500}) {
+        runTicks(gpu, static_cast<std::uint64_t>(ticks));
+        cpu.step(static_cast<std::uint64_t>(ticks));
+        expectSame(gpu, cpu);
+    }
+    EXPECT_GT(cpu.counters().died, 5000u);
+}
+
+TEST_F(GpuSimulationTest, EachModuleAlone_GivesTheBitsOfTheTwin) {
+    const auto all = busyEffect().modules;
+    for (std::size_t i = 0; i <= all.size(); ++i) {
+        scene::Effect effect = busyEffect();
+        effect.modules.clear();
+        if (i < all.size()) effect.modules.push_back(all[i]);
+        GpuSimulation gpu(device(), effect, 1);
+        CpuSimulation cpu(effect, 1);
+        runTicks(gpu, 100);
+        cpu.step(100);
+        expectSame(gpu, cpu);
+    }
+}
+
+TEST_F(GpuSimulationTest, StiffDrag_GivesTheBitsOfTheTwin) {
+    scene::Effect effect = busyEffect();
+    effect.modules[1].values["rate"] = {3000};
+    effect.modules[1].values["wind"] = {0, 0, 0};
+    effect.modules[0].values["acceleration"] = {0, 0, 0};
+    effect.modules.resize(2);
+    GpuSimulation gpu(device(), effect, 1);
+    CpuSimulation cpu(effect, 1);
+    runTicks(gpu, 200);
+    cpu.step(200);
+    expectSame(gpu, cpu);
+}
+
+TEST_F(GpuSimulationTest, HugeForces_GiveTheBitsOfTheTwin) {
+    scene::Effect effect = busyEffect();
+    effect.tickRate = 1;
+    effect.emitters[0].lifetime = {1e5, 1e6};
+    effect.modules[0].values["acceleration"] = {1e12, -1e12, 1e12};
+    effect.modules.insert(effect.modules.end(), 10, effect.modules[0]);
+    effect.modules.erase(effect.modules.begin() + 1);  // no drag
+    effect.capacity = 300;
+    GpuSimulation gpu(device(), effect, 1);
+    CpuSimulation cpu(effect, 1);
+    for (int i = 0; i < 6; ++i) {
+        runTicks(gpu, 100);
+        cpu.step(100);
+        expectSame(gpu, cpu);
+    }
+    EXPECT_GE(cpu.counters().died, 300u);
+}
+
+TEST_F(GpuSimulationTest, AnyWorkgroupAndChunkSize_GiveTheSameBits) {
+    CpuSimulation cpu(busyEffect(), 2);
+    cpu.step(150);
+    for (const std::uint32_t workgroupSize : {1u, 7u, 64u, 256u})
+        for (const std::uint32_t chunkSize : {5u, 64u, 4096u}) {
+            SCOPED_TRACE(testing::Message() << workgroupSize << " x " << chunkSize);
+            GpuSimulation gpu(device(), busyEffect(), 2, 0, {workgroupSize, chunkSize});
+            runTicks(gpu, 150);
+            expectSame(gpu, cpu);
+        }
+}
+
+TEST_F(GpuSimulationTest, TwentyRuns_GiveTheSameHash) {
+    CpuSimulation cpu(busyEffect(), 5);
+    cpu.step(60);
+    for (int run = 0; run < 20; ++run) {
+        GpuSimulation gpu(device(), busyEffect(), 5);
+        runTicks(gpu, 60);
+        EXPECT_EQ(gpu.readState(*sSubmitter).hash(), cpu.hash());
+    }
+}
+
+TEST_F(GpuSimulationTest, CapacitiesAroundChunkBorders_GiveTheBitsOfTheTwin) {
+    for (const std::uint32_t capacity : {1u, 2u, 127u, 128u, 129u, 1000u}) {
+        GpuSimulation gpu(device(), busyEffect(capacity), 2);
+        CpuSimulation cpu(busyEffect(capacity), 2);
+        runTicks(gpu, 130);
+        cpu.step(130);
+        EXPECT_GT(cpu.counters().rejected, 0u);
+        expectSame(gpu, cpu);
+    }
+}
+
+TEST_F(GpuSimulationTest, ManyChunks_AreScannedOverSeveralGroups) {
+    scene::Effect effect = burstEffect(100000, 1);
+    effect.emitters[0].lifetime = {0, 0.5};
+    effect.emitters[0].bursts.push_back({0.1, 30000});
+    GpuSimulation gpu(device(), effect, 2, 0, {64, 16});
+    CpuSimulation cpu(effect, 2);
+    runTicks(gpu, 30);
+    cpu.step(30);
+    expectSame(gpu, cpu);
+}
+
+TEST_F(GpuSimulationTest, ManyBatches_AreUploadedInSeveralParts) {
+    scene::Effect effect = busyEffect(3000);
+    for (int i = 0; i < 500; ++i)
+        effect.emitters[3].bursts.push_back({0.1 + i * 1e-5, static_cast<std::uint32_t>(i % 4)});
+    for (int i = 0; i < 30; ++i) effect.emitters.push_back(effect.emitters[0]);
+    GpuSimulation gpu(device(), effect, 2);
+    CpuSimulation cpu(effect, 2);
+    runTicks(gpu, 150);
+    cpu.step(150);
+    expectSame(gpu, cpu);
+}
+
+TEST_F(GpuSimulationTest, AdvanceToThePast_StartsAnew) {
+    GpuSimulation gpu(device(), busyEffect(), 2);
+    CpuSimulation cpu(busyEffect(), 2);
+    sSubmitter->submitAndWait("advance", [&](gpu::Commands& commands) {
+        gpu.recordAdvanceTo(commands, 0.7);
+        gpu.recordAdvanceTo(commands, 0.2);
+    });
+    cpu.advanceTo(0.2);
+    expectSame(gpu, cpu);
+}
+
+TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
+    scene::Effect effect = busyEffect();
+    effect.smoothProfile = true;
+    GpuSimulation gpu(device(), effect, 2);
+    CpuSimulation cpu(effect, 2);
+    cpu.advanceTo(1.5);
+    const dvec3 camera(2e6, 10, -7);
+    const dmat4 transform = glm::translate(dmat4(1), camera + dvec3(1, 2, 3)) *
+                            glm::rotate(dmat4(1), 0.5, dvec3(1, 1, 0)) *
+                            glm::scale(dmat4(1), dvec3(2));
+    const auto expected = cpu.spheres(transform, 7, 1000);
+
+    gpu::Buffer spheres;
+    std::uint32_t slots = 0;
+    sSubmitter->submitAndWait("appearance", [&](gpu::Commands& commands) {
+        gpu.recordAdvanceTo(commands, 1.5);
+        slots = gpu.slotCount();
+        spheres = gpu::Buffer(
+            device(), {.name = "spheres", .bytes = (slots + 4) * sizeof(shader::SphereData)});
+        commands.fillBuffer(spheres, 0x7fc00000u);
+        commands.computeTransferBarrier();
+        gpu.recordAppearance(commands, {.worldFromEffect = transform,
+                                        .cameraPosition = camera,
+                                        .medium = 7,
+                                        .firstId = 1000,
+                                        .spheres = &spheres,
+                                        .firstSphere = 3});
+    });
+    const auto got = sSubmitter->readBuffer<shader::SphereData>(spheres, slots + 1,
+                                                                3 * sizeof(shader::SphereData));
+    ASSERT_LE(expected.size(), slots);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(got[i].id, expected[i].id);
+        EXPECT_EQ(got[i].medium, 7u);
+        EXPECT_EQ(got[i].profile, shader::kProfileSmooth);
+        ASSERT_LT(glm::length(dvec3(got[i].center) + camera - expected[i].center), 2e-5);
+        ASSERT_NEAR(got[i].radius, expected[i].radius, 1e-6);
+        ASSERT_NEAR(got[i].density, expected[i].density, 1e-6);
+        ASSERT_LT(glm::length(got[i].tint - expected[i].tint), 1e-6);
+    }
+    for (std::size_t i = expected.size(); i < slots; ++i) ASSERT_EQ(got[i].radius, 0.0f);
+    EXPECT_TRUE(std::isnan(got[slots].radius)) << "wrote beyond its slots";
+}
+
+TEST_F(GpuSimulationTest, SlotCount_FollowsTheLongestLifetime) {
+    scene::Effect effect = burstEffect(1);
+    effect.capacity = 100000;
+    effect.emitters[0].rate = 1200;
+    effect.emitters[0].lifetime = {0.1, 0.5};
+    GpuSimulation gpu(device(), effect, 2);
+    CpuSimulation cpu(effect, 2);
+    runTicks(gpu, 300);
+    cpu.step(300);
+    expectSame(gpu, cpu);
+    EXPECT_LE(gpu.slotCount(), 650u);
+}
+
+}  // namespace
+}  // namespace brume::particles
