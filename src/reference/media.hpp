@@ -52,6 +52,18 @@ struct Piece {
         return std::max(0.0, c[0] + u * (c[1] + u * (c[2] + u * c[3])));
     }
 
+    /// The density at five distances.
+    void densities(const double (&t)[5], double (&result)[5]) const {
+        if (kind == Kind::Smooth) {
+            for (int k = 0; k < 5; ++k) {
+                const double q = (t[k] - c[1]) * (c[2] - t[k]);
+                result[k] = c[0] * q * q;
+            }
+        } else {
+            for (int k = 0; k < 5; ++k) result[k] = density(t[k]);
+        }
+    }
+
     /// Integral of the density over [a, b], which lies in [t0, t1]: Boole's rule, exact to
     /// degree 5.
     double integrate(double a, double b) const {

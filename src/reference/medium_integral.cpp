@@ -9,7 +9,7 @@ namespace {
 /// Accepted difference between the rule and Simpson's, per panel and radiance of order 1. The
 /// rule itself is some orders better (tests/reference/hard_rays_test.cpp).
 constexpr double kTolerance = 1e-9;
-constexpr double kShadowTolerance = 2e-8;
+constexpr double kShadowTolerance = 1e-8;
 /// Longest panel in shadowed media, as a fraction of the scene.
 constexpr double kPanelsPerScene = 64;
 /// Panels with one source function per channel need no depth limit; 1e30 needs 100 halvings.
@@ -50,10 +50,14 @@ void MediumIntegral::start(const scene::Ray& ray, std::span<const Piece> pieces)
     mIsUniform = mIsLightConstant &&
                  std::all_of(pieces.begin(), pieces.end(),
                              [&](const Piece& piece) { return piece.source == pieces[0].source; });
-    mSourceLight.clear();
-    if (!mIsLightConstant || pieces.empty()) return;
-    sampleLight(0, 0);
-    for (const Piece& piece : pieces) mSourceLight.push_back(sourceLight(piece, 0));
+    mWeights.clear();
+    if (mIsLightConstant && !pieces.empty()) sampleLight(0, 0);
+    for (const Piece& piece : pieces) {
+        const dvec3& extinction = mMedia.source(piece.source).extinction;
+        Weights weights{extinction.x, extinction.y, extinction.z};
+        if (mIsLightConstant) setLight(weights, sourceLight(piece, 0));
+        mWeights.push_back(weights);
+    }
 }
 
 void MediumIntegral::pass(const SurfaceResponse& surface) {
@@ -64,19 +68,19 @@ void MediumIntegral::pass(const SurfaceResponse& surface) {
 // ---- One source function: closed form ----
 
 void MediumIntegral::addUniform(std::uint32_t piece, double density) {
-    const dvec3 depth = mMedia.source(mPieces[piece].source).extinction * density;
-    const dvec3& light = mSourceLight[piece];
+    const Weights& weights = mWeights[piece];
     for (int c = 0; c < 3; ++c) {
-        const double absorbed = -std::expm1(-depth[c]);
+        const double extinction = weights[c], light = weights[3 + c], depth = extinction * density;
+        const double absorbed = -std::expm1(-depth);
         // Thick: the ratio of light to extinction; thin: the light, less the little absorbed on its
         // way.
-        double gain = light[c] * density;
-        if (depth[c] > 1)
-            gain = light[c] / mMedia.source(mPieces[piece].source).extinction[c] * absorbed;
-        else if (depth[c] > 0)
-            gain *= absorbed / depth[c];
+        double gain = light * density;
+        if (depth > 1)
+            gain = light / extinction * absorbed;
+        else if (depth > 0)
+            gain *= absorbed / depth;
         mRadiance[c] += mTransmittance[c] * gain;
-        mTransmittance[c] *= std::exp(-depth[c]);
+        mTransmittance[c] *= std::exp(-depth);
     }
 }
 
@@ -162,14 +166,15 @@ void MediumIntegral::split(double a, double b, const Nodes& nodes, int depth) {
 MediumIntegral::Panel MediumIntegral::evaluate(double a, double b, const Nodes& nodes) const {
     Panel panel;
     panel.length = b - a;
+    double t[kNodeCount];
+    for (int k = 0; k < kNodeCount; ++k) t[k] = k < 4 ? a + 0.25 * k * panel.length : b;
     for (const std::uint32_t index : mOpen) {
-        const Piece& piece = mPieces[index];
-        const dvec3& extinction = mMedia.source(piece.source).extinction;
+        double density[kNodeCount];
+        mPieces[index].densities(t, density);
+        Weights weights = mWeights[index];
         for (int k = 0; k < kNodeCount; ++k) {
-            const double density = piece.density(k < 4 ? a + 0.25 * k * panel.length : b);
-            panel.extinction[k] += density * extinction;
-            panel.light[k] +=
-                density * (mIsLightConstant ? mSourceLight[index] : sourceLight(piece, nodes[k]));
+            if (!mIsLightConstant) setLight(weights, sourceLight(mPieces[index], nodes[k]));
+            for (int i = 0; i < kWeightCount; ++i) panel.sums[k][i] += density[k] * weights[i];
         }
     }
     return panel;
@@ -181,7 +186,7 @@ MediumIntegral::Gain MediumIntegral::integrate(const Panel& panel) const {
     for (int c = 0; c < 3; ++c) {
         double sigma[kNodeCount], light[kNodeCount], tau[kNodeCount], rest[kNodeCount];
         for (int k = 0; k < kNodeCount; ++k)
-            sigma[k] = panel.extinction[k][c], light[k] = panel.light[k][c];
+            sigma[k] = panel.sums[k][c], light[k] = panel.sums[k][3 + c];
         accumulate(sigma, tau);
         const double depth = h * tau[4];
         const double reference = tau[4] > 0 ? boole(light) / tau[4] : 0;

@@ -46,11 +46,13 @@ class MediumIntegral {
   private:
     static constexpr int kNodeCount = 5;
     using Nodes = std::array<std::uint32_t, kNodeCount>;  ///< of a panel: indices of light samples
-    /// Extinction and emitted plus scattered light, per metre, at the nodes of a panel.
+    /// Extinction (3 channels) and emitted plus scattered light (3), per unit density or per metre.
+    static constexpr int kWeightCount = 6;
+    using Weights = std::array<double, kWeightCount>;
+    /// Sums over the open pieces at the nodes, per metre.
     struct Panel {
         double length = 0;
-        dvec3 extinction[kNodeCount] = {};
-        dvec3 light[kNodeCount] = {};
+        double sums[kNodeCount][kWeightCount] = {};
     };
     struct Gain {
         dvec3 radiance{0};
@@ -65,6 +67,9 @@ class MediumIntegral {
     Panel evaluate(double a, double b, const Nodes& nodes) const;
     Gain integrate(const Panel& panel) const;
 
+    static void setLight(Weights& weights, const dvec3& light) {
+        for (int c = 0; c < 3; ++c) weights[3 + c] = light[c];
+    }
     dvec3 sourceLight(const Piece& piece, std::uint32_t lightSample) const;
     std::uint32_t addLightSample(double t);
     void sampleLight(std::uint32_t index, double t);
@@ -77,7 +82,7 @@ class MediumIntegral {
     scene::Ray mRay{};
     std::span<const Piece> mPieces;
     std::span<const std::uint32_t> mOpen;
-    std::vector<dvec3> mSourceLight;   ///< per piece and unit density, where light is constant
+    std::vector<Weights> mWeights;     ///< per piece; the light only where it is constant
     std::vector<dvec3> mLightSamples;  ///< classCount each; sample 0 is at mSampledTo
     double mSampledTo = 0;
     int mSampleCount = 0;  ///< taken on this ray
