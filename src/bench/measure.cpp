@@ -110,6 +110,7 @@ void FrameSamples::add(render::Result frame) {
     mPassTimesMs.resize(std::max(mPassTimesMs.size(), frame.passes.size()));
     for (std::size_t i = 0; i < frame.passes.size(); ++i)
         mPassTimesMs[i].push_back(frame.passes[i].timeMs);
+    mHashes.insert(computeHash(frame.image));
     mLast = std::move(frame);
 }
 
@@ -120,6 +121,8 @@ void FrameSamples::summariseInto(Row& row) const {
         row.passes[i].timeMs = percentile(mPassTimesMs[i], 0.5);
     row.bytes = mLast.bytes;
     row.counters = mLast.counters;
+    row.counters["distinctImages"] = mHashes.size();
+    row.imageHash = computeHash(mLast.image);
 }
 
 Row describeRun(const std::string& sceneName, const scene::Scene& scene,

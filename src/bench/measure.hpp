@@ -8,6 +8,7 @@
 #include <gpu/device.hpp>
 #include <reference/reference.hpp>
 #include <render/renderer.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ class FrameSamples {
   public:
     void add(render::Result frame);
 
-    /// Writes time, passes, bytes and counters into the row.
+    /// Writes time, passes, bytes, image hash and counters (with `distinctImages`) into the row.
     void summariseInto(Row& row) const;
 
     const render::Result& last() const { return mLast; }
@@ -30,6 +31,7 @@ class FrameSamples {
   private:
     std::vector<double> mTimesMs;
     std::vector<std::vector<double>> mPassTimesMs;  ///< per pass, per frame
+    std::set<std::uint64_t> mHashes;  ///< of the images: one, where a method is deterministic
     render::Result mLast;
 };
 

@@ -54,6 +54,7 @@ Json rowJson(const Row& row) {
     json["bytes"] = bytesJson(row);
     json["counters"] = Json::object();
     for (const auto& [name, count] : row.counters) json["counters"][name] = count;
+    json["imageHash"] = fmt::format("{:016x}", row.imageHash);
     if (row.error) json["error"] = errorJson(*row.error);
     if (row.layerPixelsPerSecond) json["layerPixelsPerSecond"] = *row.layerPixelsPerSecond;
     return json;

@@ -9,12 +9,13 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 5> kScenes = {{
+constexpr std::array<SceneInfo, 6> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
     {"spheres_10k_15", "10 000 spheres of 15 pixels radius, seven per pixel"},
     {"spheres_10k_64", "10 000 spheres of 64 pixels radius, over a hundred per pixel"},
     {"spheres_100k_16", "100 000 spheres of 16 pixels radius"},
+    {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
@@ -77,6 +78,7 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "spheres_10k_15") return {{std::string(name), makeSpheres(10'000, 15)}};
     if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};
     if (name == "spheres_100k_16") return {{std::string(name), makeSpheres(100'000, 16)}};
+    if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     return makeLayerScenes(name);
 }
 
@@ -104,7 +106,9 @@ scene::Scene makeLayers(int layerCount, int width, int height) {
     return scene;
 }
 
-scene::Scene makeSpheres(int count, double radiusPixels) {
+namespace {
+
+scene::Scene makeSmokyScene() {
     scene::Scene scene;
     scene.image = {1280, 720, 1};
     scene.camera.position = dvec3(0);
@@ -115,6 +119,25 @@ scene::Scene makeSpheres(int count, double radiusPixels) {
     medium.name = "smoke";
     medium.albedo = dvec3(0.9, 0.85, 0.8);
     scene.media = {medium};
+    return scene;
+}
+
+}  // namespace
+
+scene::Scene makeNestedSpheres(int count) {
+    scene::Scene scene = makeSmokyScene();
+    for (int i = 0; i < count; ++i) {
+        scene::Sphere sphere;
+        sphere.center = dvec3(0, 0, -4 - 8.0 * i / count);
+        sphere.radius = -0.65 * sphere.center.z;  // seen under 40 degrees from the axis: past the corners
+        sphere.density = 1.5 / (count * sphere.radius);
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+scene::Scene makeSpheres(int count, double radiusPixels) {
+    scene::Scene scene = makeSmokyScene();
 
     const double pixel = 2 * std::tan(0.5 * scene.camera.verticalFov) / scene.image.height;
     Random random(static_cast<std::uint64_t>(count));

@@ -32,6 +32,10 @@ std::vector<NamedScene> makeScenes(std::string_view name);
 /// Kovacs, "Order Independent Transparency with Per-Pixel Linked Lists", 2011.
 scene::Scene makeLayers(int layerCount, int width, int height);
 
+/// `count` spheres of constant density that each cover the whole 1280x720 image and overlap; total
+/// optical depth about 3.
+scene::Scene makeNestedSpheres(int count);
+
 /// `count` spheres of constant density, each `radiusPixels` wide on a 1280x720 image, at random
 /// places and distances; optical depth 0.4 through each centre.
 scene::Scene makeSpheres(int count, double radiusPixels);

@@ -132,9 +132,9 @@ void RenderCommand::renderOne(const std::filesystem::path& output) {
     if (mArguments.explain) fmt::print("{}\n", rendered.explanation);
     if (!mArguments.output.empty()) writeImage(output, rendered.frame.image);
     const bench::Row& row = rendered.row;
-    fmt::print("{}{}x{} {} {:.2f} ms on {}{}{}\n",
+    fmt::print("{}{}x{} {} {:.2f} ms on {}, image {:016x}{}{}\n",
                mArguments.output.empty() ? "" : output.string() + ": ", row.width, row.height,
-               row.method, row.time.median, row.device, row.counters.empty() ? "" : ": ",
+               row.method, row.time.median, row.device, row.imageHash, row.counters.empty() ? "" : ": ",
                formatCounters(row.counters));
     compare(rendered);
     mRows.push_back(std::move(rendered.row));
