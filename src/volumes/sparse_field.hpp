@@ -35,6 +35,9 @@ struct SparseField {
 /// What infinite voxels become: the largest finite half float.
 inline constexpr float kValueCap = 65504.0f;
 
+/// Greater values count as infinite: times an extinction they would be, in 32 bits.
+inline constexpr float kGreatestValue = 1e30f;
+
 /// Repairs all values in place: NaN and negative become 0, infinite kValueCap. Negative zeros are
 /// no fault.
 SanitiseReport sanitise(SparseField& field);
