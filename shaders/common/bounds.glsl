@@ -2,6 +2,7 @@
 // Conservative bounds of media on the image plane.
 #ifndef BRUME_COMMON_BOUNDS_GLSL
 #define BRUME_COMMON_BOUNDS_GLSL
+#include "bindings.glsl"
 
 // Image plane coordinates: x to the right, y up, the image spans +-extent.
 struct Bounds {

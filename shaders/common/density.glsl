@@ -12,7 +12,8 @@ struct LocalRay {
 };
 
 LocalRay localRay(Ray ray, BoxData box, VolumeData volume) {
-    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner), volume.indexFromWorld * ray.direction);
+    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner),
+                    volume.indexFromWorld * ray.direction);
 }
 
 // The next distance behind `position` at which the ray crosses a plane between cells.
@@ -46,7 +47,8 @@ void loadCell(BoxData box, vec3 p, out vec4 low, out vec4 high, out vec3 cell) {
     uint base = box.valueOffset + (c.z * 9u + c.y) * 9u + c.x;
     BrickValues values = BrickValues(frame.brickValues);
     low = vec4(values.at[base], values.at[base + 1u], values.at[base + 9u], values.at[base + 10u]);
-    high = vec4(values.at[base + 81u], values.at[base + 82u], values.at[base + 90u], values.at[base + 91u]);
+    high = vec4(values.at[base + 81u], values.at[base + 82u], values.at[base + 90u],
+                values.at[base + 91u]);
 }
 
 float trilinear(vec4 low, vec4 high, vec3 f) {
@@ -63,7 +65,8 @@ vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
         vec3 cell;
         loadCell(box, local.origin + local.direction * t.y, low, high, cell);
         for (int k = 0; k < 3; ++k)
-            densities[k] = trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
+            densities[k] =
+                trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
         return densities;
     }
     for (int k = 0; k < 3; ++k) {
@@ -80,7 +83,8 @@ vec3 sphereDensities(Ray ray, SphereData sphere, vec3 t) {
     float middle = dot(offset, ray.direction);
     vec3 perpendicular = offset - middle * ray.direction;
     float inverse = 1.0 / (sphere.radius * sphere.radius);
-    vec3 q = max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
+    vec3 q =
+        max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
     return sphere.density * q * q;
 }
 

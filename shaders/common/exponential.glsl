@@ -3,8 +3,8 @@
 #ifndef BRUME_COMMON_EXPONENTIAL_GLSL
 #define BRUME_COMMON_EXPONENTIAL_GLSL
 
-// (1 - exp(-x)) / x for 0 <= x, where `decay` = exp(-x): a series below 0.1, where the difference has
-// no digits left in fp32.
+// (1 - exp(-x)) / x for 0 <= x, where `decay` = exp(-x): a series below 0.1, where the difference
+// has no digits left in fp32.
 vec3 meanDecay(vec3 x, vec3 decay) {
     vec3 series = 1.0 - x * 0.5 * (1.0 - x * (1.0 / 3.0) * (1.0 - x * 0.25 * (1.0 - x * 0.2)));
     return mix((1.0 - decay) / max(x, vec3(0.1)), series, lessThan(x, vec3(0.1)));

@@ -13,7 +13,7 @@ struct FrameData {
     vec3 up;
     float extentY;
     vec3 forward;
-    float near;  // m, nearest view depth of triangles
+    float near;    // m, nearest view depth of triangles
     vec3 ambient;  // radiance of the ambient lights together
     uint orthographic;
     vec3 background;  // radiance, where there is no environment
@@ -25,7 +25,7 @@ struct FrameData {
     uint boxCount;
     uint lightCount;  // without the ambient ones
     uint mediumCount;
-    float far;  // m; depth range of an orthographic camera
+    float far;             // m; depth range of an orthographic camera
     uint64_t brickValues;  // address of float[]
 };
 
@@ -37,7 +37,7 @@ struct LightData {
     vec3 color;  // irradiance (directional), intensity (point, spot)
     uint type;
     vec3 position;
-    float radius;  // m; E = I / max(d^2, radius^2)
+    float radius;    // m; E = I / max(d^2, radius^2)
     vec3 direction;  // unit, in which the light travels
     float cosInner;
     float cosOuter;

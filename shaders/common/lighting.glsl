@@ -2,11 +2,12 @@
 // How much light arrives at a point, and what a medium scatters of it towards the eye.
 #ifndef BRUME_COMMON_LIGHTING_GLSL
 #define BRUME_COMMON_LIGHTING_GLSL
+#include "../shadows/none/transmittance.glsl"
 #include "bindings.glsl"
 #include "phase.glsl"
-#include "../shadows/none/transmittance.glsl"
 
-// Irradiance on a plane facing light `index` at `position`, shadowed; `travel`: direction of the light there.
+// Irradiance on a plane facing light `index` at `position`, shadowed; `travel`: direction of the
+// light there.
 vec3 lightIrradiance(uint index, vec3 position, out vec3 travel) {
     LightData light = lights[index];
     if (light.type == kLightDirectional) {
@@ -19,7 +20,8 @@ vec3 lightIrradiance(uint index, vec3 position, out vec3 travel) {
     float falloff = 1.0;
     if (light.type == kLightSpot) {
         float s = clamp((dot(travel, light.direction) - light.cosOuter) /
-                            max(light.cosInner - light.cosOuter, 1e-6), 0.0, 1.0);
+                            max(light.cosInner - light.cosOuter, 1e-6),
+                        0.0, 1.0);
         falloff = s * s;
     }
     return light.color * (falloff / max(distance2, light.radius * light.radius)) *

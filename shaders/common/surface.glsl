@@ -2,8 +2,8 @@
 // What a ray meets on a triangle: distance, side, and the light that the surface sends to the eye.
 #ifndef BRUME_COMMON_SURFACE_GLSL
 #define BRUME_COMMON_SURFACE_GLSL
-#include "lighting.glsl"
 #include "camera.glsl"
+#include "lighting.glsl"
 #include "mesh.h"
 
 layout(location = 0) in vec3 normal;

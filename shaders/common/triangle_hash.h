@@ -9,8 +9,10 @@ namespace brume::shader {
 using uint = std::uint32_t;
 inline
 #endif
-    // PCG output function (O'Neill 2014). `meshIndex`: in Scene::meshes; `triangleIndex`: in the mesh.
-    uint triangleHash(uint meshIndex, uint triangleIndex) {
+    // PCG output function (O'Neill 2014). `meshIndex`: in Scene::meshes; `triangleIndex`: in the
+    // mesh.
+    uint
+    triangleHash(uint meshIndex, uint triangleIndex) {
     uint state = (meshIndex * 0x9e3779b9u + triangleIndex) * 747796405u + 2891336453u;
     uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return (word >> 22u) ^ word;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
-layout(push_constant) uniform Push { vec4 color; float depth; };
+layout(push_constant) uniform Push {
+    vec4 color;
+    float depth;
+};
 layout(location = 0) out vec4 result;
 void main() { result = color; }

@@ -13,8 +13,8 @@ BRUME_CONST uint kSortChunk = 256u;
 BRUME_CONST uint kSortDigits = 256u;
 
 struct ScanPush {
-    uint64_t values;   // uint[count], in place: becomes the sum of all values before it
-    uint64_t sums;     // uint[ceil(count / kScanChunk) + 1]; the last element becomes the total
+    uint64_t values;  // uint[count], in place: becomes the sum of all values before it
+    uint64_t sums;    // uint[ceil(count / kScanChunk) + 1]; the last element becomes the total
     uint count;
 };
 

@@ -2,8 +2,8 @@
 // Prefix sum, step 3: each chunk becomes its running sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scan.h"
 #include "address.glsl"
+#include "scan.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ScanPush push; };

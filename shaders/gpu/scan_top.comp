@@ -2,8 +2,8 @@
 // Prefix sum, step 2: one invocation sums the chunks' sums; the total goes behind the last.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scan.h"
 #include "address.glsl"
+#include "scan.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Push { ScanPush push; };

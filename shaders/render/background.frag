@@ -2,8 +2,8 @@
 // What a ray sees that meets nothing: a constant or an environment map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../common/bindings.glsl"
 #include "../common/angles.glsl"
+#include "../common/bindings.glsl"
 #include "../common/camera.glsl"
 
 layout(binding = kBindingOwn) uniform sampler2D environment;
@@ -21,14 +21,18 @@ vec3 environmentRadiance(vec3 d) {
     ivec2 x = ivec2((low.x + frame.environmentSize.x) % frame.environmentSize.x,
                     (low.x + 1 + frame.environmentSize.x) % frame.environmentSize.x);
     ivec2 y = clamp(ivec2(low.y, low.y + 1), ivec2(0), last.yy);
-    return mix(mix(texelFetch(environment, ivec2(x.x, y.x), 0).rgb, texelFetch(environment, ivec2(x.y, y.x), 0).rgb, f.x),
-               mix(texelFetch(environment, ivec2(x.x, y.y), 0).rgb, texelFetch(environment, ivec2(x.y, y.y), 0).rgb, f.x), f.y);
+    return mix(mix(texelFetch(environment, ivec2(x.x, y.x), 0).rgb,
+                   texelFetch(environment, ivec2(x.y, y.x), 0).rgb, f.x),
+               mix(texelFetch(environment, ivec2(x.x, y.y), 0).rgb,
+                   texelFetch(environment, ivec2(x.y, y.y), 0).rgb, f.x),
+               f.y);
 }
 
 void main() {
     vec3 direction = makeRay(gl_FragCoord.xy).direction;
-    color.rgb = frame.environmentSize.x > 0u ? frame.environmentScale * environmentRadiance(direction)
-                                             : frame.background;
+    color.rgb = frame.environmentSize.x > 0u
+                    ? frame.environmentScale * environmentRadiance(direction)
+                    : frame.background;
     color.a = 1.0;
     opaqueT = 3.0e38;
 }

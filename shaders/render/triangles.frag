@@ -14,5 +14,7 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float limit = texelFetch(opaqueT, pixel, 0).x;
     bool isSeen = point.material.type == kMaterialOpaque ? point.t == limit : point.t < limit;
-    if (isSeen) atomicAdd(triangles[pixel.y * frame.size.x + pixel.x], triangleHash(push.meshIndex, triangle));
+    if (isSeen)
+        atomicAdd(triangles[pixel.y * frame.size.x + pixel.x],
+                  triangleHash(push.meshIndex, triangle));
 }

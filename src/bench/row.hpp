@@ -29,8 +29,8 @@ struct Row {
     std::vector<render::PassTime> passes;        ///< medians
     std::map<std::string, std::uint64_t> bytes;  ///< by kind, "total" among them
     std::map<std::string, std::uint64_t> counters;
-    std::uint64_t imageHash = 0;                 ///< of the last frame; 16 hexadecimal digits in JSON
-    std::optional<ErrorMetrics> error;           ///< if compared
+    std::uint64_t imageHash = 0;        ///< of the last frame; 16 hexadecimal digits in JSON
+    std::optional<ErrorMetrics> error;  ///< if compared
     std::optional<double> layerPixelsPerSecond;  ///< scenes `layers` only
     std::string failure;                         ///< why there is no measurement, or empty
 };

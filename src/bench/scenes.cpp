@@ -129,7 +129,8 @@ scene::Scene makeNestedSpheres(int count) {
     for (int i = 0; i < count; ++i) {
         scene::Sphere sphere;
         sphere.center = dvec3(0, 0, -4 - 8.0 * i / count);
-        sphere.radius = -0.65 * sphere.center.z;  // seen under 40 degrees from the axis: past the corners
+        sphere.radius =
+            -0.65 * sphere.center.z;  // seen under 40 degrees from the axis: past the corners
         sphere.density = 1.5 / (count * sphere.radius);
         scene.spheres.push_back(sphere);
     }

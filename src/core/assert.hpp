@@ -16,13 +16,13 @@ class AssertionError : public std::logic_error {
 }  // namespace brume
 
 #ifdef BRUME_ASSERTS
-#define BRUME_ASSERT_OP(a, op, b)                                                                \
-    do {                                                                                         \
-        const auto& brumeLeft = (a);                                                             \
-        const auto& brumeRight = (b);                                                            \
-        if (!(brumeLeft op brumeRight))                                                          \
+#define BRUME_ASSERT_OP(a, op, b)                                                                  \
+    do {                                                                                           \
+        const auto& brumeLeft = (a);                                                               \
+        const auto& brumeRight = (b);                                                              \
+        if (!(brumeLeft op brumeRight))                                                            \
             throw ::brume::AssertionError(fmt::format("{}:{}: {} ({} and {})", __FILE__, __LINE__, \
-                                                      #a " " #op " " #b, brumeLeft, brumeRight)); \
+                                                      #a " " #op " " #b, brumeLeft, brumeRight));  \
     } while (false)
 #else
 #define BRUME_ASSERT_OP(a, op, b) static_cast<void>(0)

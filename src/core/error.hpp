@@ -13,8 +13,8 @@ enum class ErrorKind {
     Failure  ///< device, memory, or input/output failed (command line: exit code 1)
 };
 
-/// An error with one line of text: "<what was being done>: <where>: <what is wrong>, <what is allowed>".
-/// The library throws nothing else on purpose; it never prints, exits or aborts.
+/// An error with one line of text: "<what was being done>: <where>: <what is wrong>, <what is
+/// allowed>". The library throws nothing else on purpose; it never prints, exits or aborts.
 class Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), mKind(kind) {}

@@ -41,8 +41,9 @@ void RadixSort::record(Commands& commands, VkDeviceAddress keys, VkDeviceAddress
     BRUME_ASSERT_LE(std::uint64_t{count} * 4, mKeys.bytes());
     const std::uint32_t chunks = chunkCount(count);
     if (chunks == 0) return;
-    shader::SortPush push{keys, values, mKeys.deviceAddress(), mValues.deviceAddress(),
-                          mCounts.deviceAddress(), count, 0};
+    shader::SortPush push{
+        keys,  values, mKeys.deviceAddress(), mValues.deviceAddress(), mCounts.deviceAddress(),
+        count, 0};
     // An even number of passes leaves the result where it came from.
     const std::uint32_t passes = (bits / 8 + 1) / 2 * 2;
     for (std::uint32_t pass = 0; pass < passes; ++pass) {

@@ -22,15 +22,14 @@ const std::vector<gpu::ColorTarget> kOver = {
 
 Billboards::Billboards(gpu::Device& device, const std::string& name, const Inputs& inputs)
     : mName("oit." + name),
-      mMedia(device,
-             {.name = mName + ".media",
-              .vertexSpirv = spv::oit_billboards_media_vert,
-              .fragmentSpirv = spv::oit_billboards_media_frag,
-              .bindings = join(join(frameBindings(), mediaBindings()), {kOpaqueT}),
-              .pushConstantBytes = sizeof(shader::BillboardPush),
-              .specialization = {inputs.needs.boxes, inputs.needs.varyingDensity,
-                                 inputs.needs.colouredExtinction},
-              .colors = kOver}) {
+      mMedia(device, {.name = mName + ".media",
+                      .vertexSpirv = spv::oit_billboards_media_vert,
+                      .fragmentSpirv = spv::oit_billboards_media_frag,
+                      .bindings = join(join(frameBindings(), mediaBindings()), {kOpaqueT}),
+                      .pushConstantBytes = sizeof(shader::BillboardPush),
+                      .specialization = {inputs.needs.boxes, inputs.needs.varyingDensity,
+                                         inputs.needs.colouredExtinction},
+                      .colors = kOver}) {
     if (inputs.needs.surfaces)
         mSurfaces = {device,
                      {.name = mName + ".surfaces",
@@ -78,10 +77,11 @@ void Billboards::declare(frame::FrameBuilder& frame, const Inputs& inputs,
     pass.reads(inputs.spheres, Access::VertexRead).reads(inputs.opaqueT, Access::FragmentSample);
     if (order) pass.reads(order, Access::VertexRead);
     pass.color(inputs.result, gpu::LoadOp::Load);
-    pass.record([this, inputs, order](gpu::Commands& commands, const frame::PassResources& resources) {
-        recordMedia(commands, resources, inputs, order);
-        recordSurfaces(commands, resources, inputs);
-    });
+    pass.record(
+        [this, inputs, order](gpu::Commands& commands, const frame::PassResources& resources) {
+            recordMedia(commands, resources, inputs, order);
+            recordSurfaces(commands, resources, inputs);
+        });
 }
 
 }  // namespace brume::oit

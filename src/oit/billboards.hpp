@@ -15,7 +15,8 @@ class Billboards {
     /// `name`: of the method; passes are "oit.<name>.clear" and "oit.<name>.store".
     Billboards(gpu::Device& device, const std::string& name, const Inputs& inputs);
 
-    /// `order`: uint[spheres + boxes] as written by an earlier pass, or empty for the order of submission.
+    /// `order`: uint[spheres + boxes] as written by an earlier pass, or empty for the order of
+    /// submission.
     void declare(frame::FrameBuilder& frame, const Inputs& inputs, frame::BufferRef order) const;
 
   private:

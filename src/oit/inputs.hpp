@@ -13,10 +13,10 @@ namespace brume::oit {
 /// What a scene uses. Methods specialise their pipelines by it and allocate for nothing else.
 struct Needs {
     bool spheres = false;
-    bool boxes = false;          ///< bricks, tiles or boxes of volumes
-    bool surfaces = false;       ///< thin or solid triangles
-    bool varyingDensity = false; ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;   ///< point or spot lights
+    bool boxes = false;               ///< bricks, tiles or boxes of volumes
+    bool surfaces = false;            ///< thin or solid triangles
+    bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
+    bool varyingLight = false;        ///< point or spot lights
     bool colouredExtinction = false;  ///< extinction or transmission differs between channels
     std::uint32_t lights = 0;         ///< without ambient ones
 };
@@ -29,8 +29,8 @@ struct SurfaceDraw {
     const gpu::Image* emissionTexture = nullptr;
 };
 
-/// Buffers are bound as shaders/common/bindings.glsl and mesh.h say; those that the frame itself writes are
-/// BufferRefs. All outlive the frame.
+/// Buffers are bound as shaders/common/bindings.glsl and mesh.h say; those that the frame itself
+/// writes are BufferRefs. All outlive the frame.
 struct Inputs {
     Needs needs;
     VkExtent2D extent{};
@@ -45,14 +45,15 @@ struct Inputs {
     const gpu::Buffer* materials = nullptr;
     const gpu::Sampler* textureSampler = nullptr;  ///< linear, repeating
     const gpu::Sampler* texelSampler = nullptr;    ///< nearest, for texelFetch
-    std::uint32_t sphereCount = 0;  ///< slots; those with radius 0 are empty
+    std::uint32_t sphereCount = 0;                 ///< slots; those with radius 0 are empty
     std::uint32_t boxCount = 0;
     bool sphereIdsAscend = true;  ///< spheres stand in the order of their ids
     std::vector<SurfaceDraw> surfaces;
-    frame::BufferRef spheres;      ///< SphereData[sphereCount]
-    frame::ImageRef opaqueT;       ///< R32F, distance of the opaque surface along the ray; 3e38 where there is none
-    frame::ImageRef opaqueColor;   ///< RGBA32F, its radiance or the background's
-    frame::ImageRef result;        ///< RGBA32F, to be written whole
+    frame::BufferRef spheres;  ///< SphereData[sphereCount]
+    frame::ImageRef
+        opaqueT;  ///< R32F, distance of the opaque surface along the ray; 3e38 where there is none
+    frame::ImageRef opaqueColor;  ///< RGBA32F, its radiance or the background's
+    frame::ImageRef result;       ///< RGBA32F, to be written whole
 };
 
 }  // namespace brume::oit

@@ -71,7 +71,8 @@ namespace linked_list {
 const MethodInfo& info() {
     static const MethodInfo kInfo{
         .name = "linked_list",
-        .summary = "Per-pixel lists of surfaces and medium intervals, sorted and integrated exactly.",
+        .summary =
+            "Per-pixel lists of surfaces and medium intervals, sorted and integrated exactly.",
         .paper = "Barta, Kovacs: Order Independent Transparency with Per-Pixel Linked Lists, 2011",
         .exactness = Exactness::Exact,
         .passes = "1 compute (media) and 1 raster (surfaces), each twice: count, store; 1 resolve",
@@ -105,7 +106,9 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
       mPrefixSum(device) {
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes};
-    const auto mediaAnd = [](std::vector<gpu::Binding> more) { return join(mediaBindings(), more); };
+    const auto mediaAnd = [](std::vector<gpu::Binding> more) {
+        return join(mediaBindings(), more);
+    };
     mCount = makeListPipeline(device, "count", spv::oit_linked_list_count_comp,
                               mediaAnd({kOpaqueT}), mediaUsed);
     mStore = makeListPipeline(device, "store", spv::oit_linked_list_store_comp,
@@ -116,11 +119,13 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
                   {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                   {shader::kBindingResult, gpu::BindingType::StorageImage}}),
         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction});
-    mTotals = makeListPipeline(device, "totals", spv::oit_linked_list_totals_comp, {},
-                               {mNeeds.surfaces});
+    mTotals =
+        makeListPipeline(device, "totals", spv::oit_linked_list_totals_comp, {}, {mNeeds.surfaces});
     if (mNeeds.surfaces) {
-        mSurfaceCount = makeSurfacePipeline(device, "count", spv::oit_linked_list_surface_count_frag);
-        mSurfaceStore = makeSurfacePipeline(device, "store", spv::oit_linked_list_surface_store_frag);
+        mSurfaceCount =
+            makeSurfacePipeline(device, "count", spv::oit_linked_list_surface_count_frag);
+        mSurfaceStore =
+            makeSurfacePipeline(device, "store", spv::oit_linked_list_surface_store_frag);
     }
     mCounters = makeBuffer(device, "counters", sizeof(shader::ListCounters));
     mCountersRead = makeBuffer(device, "counters_read", sizeof(shader::ListCounters),
@@ -161,10 +166,11 @@ void LinkedList::planBands() {
         const std::uint64_t bytes =
             total.entries * kEntryBytes + total.surfaces * sizeof(shader::SurfaceRecord);
         if (bytes > mSettings.budgetBytes)
-            throw inputError("setting up method linked_list", "budgetMiB",
-                             fmt::format("the lists of one tile of 8 x 8 pixels need {} MiB, allowed "
-                                         "are budgets of at least that",
-                                         (bytes >> 20) + 1));
+            throw inputError(
+                "setting up method linked_list", "budgetMiB",
+                fmt::format("the lists of one tile of 8 x 8 pixels need {} MiB, allowed "
+                            "are budgets of at least that",
+                            (bytes >> 20) + 1));
         if (mBands.empty() || bandBytes + bytes > mSettings.budgetBytes) {
             mBands.push_back({.firstTile = tile});
             bandBytes = 0;
@@ -217,8 +223,8 @@ void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
                                  const char* stage, const gpu::GraphicsPipeline& pipeline) {
     frame::PassBuilder& pass = frame.addPass(fmt::format("oit.linked_list.surface_{}", stage));
     pass.reads(inputs.opaqueT, Access::FragmentSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceCounts, &mSurfaceCursors, &mCounters,
-                                      &mEntries, &mRecords})
+    for (const gpu::Buffer* buffer :
+         {&mOffsets, &mSurfaceCounts, &mSurfaceCursors, &mCounters, &mEntries, &mRecords})
         pass.readsWrites(frame.importBuffer(*buffer), Access::FragmentWrite);
     pass.renderArea(inputs.extent);
     pass.record([this, inputs, band, &pipeline](gpu::Commands& commands,
@@ -226,7 +232,8 @@ void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
         commands.bindGraphics(pipeline);
         bindFrame(commands, inputs);
         bindMeshes(commands, inputs);
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
+        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                      *inputs.texelSampler);
         shader::ListPush push = makePush(band);
         drawSurfaces(commands, inputs, [&](std::uint32_t mesh) {
             push.meshIndex = mesh;
@@ -242,7 +249,8 @@ void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, 
     for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceCounts, &mSurfaceCursors, &mCounters})
         pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
     pass.writes(frame.importBuffer(mOffsets), Access::ComputeWrite);
-    pass.record([this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
+    pass.record([this, inputs, band](gpu::Commands& commands,
+                                     const frame::PassResources& resources) {
         commands.fillBuffer(mOffsets, 0);
         if (mNeeds.surfaces) {
             commands.fillBuffer(mSurfaceCounts, 0);
@@ -255,7 +263,8 @@ void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, 
         commands.bindCompute(mCount);
         bindFrame(commands, inputs);
         bindMedia(commands, inputs, mBins.sortedSpheres());
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
+        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                      *inputs.texelSampler);
         commands.pushConstants(makePush(band));
         commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize, kTilePixels);
     });
@@ -285,14 +294,16 @@ void LinkedList::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, 
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     for (const gpu::Buffer* buffer : {&mOffsets, &mSums, &mEntries})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
-    pass.record([this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
+    pass.record([this, inputs, band](gpu::Commands& commands,
+                                     const frame::PassResources& resources) {
         mPrefixSum.record(commands, mOffsets.deviceAddress(), band.tileCount * kTilePixels + 1,
                           mSums.deviceAddress());
         commands.computeBarrier();
         commands.bindCompute(mStore);
         bindFrame(commands, inputs);
         bindMedia(commands, inputs, mBins.sortedSpheres());
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
+        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                      *inputs.texelSampler);
         commands.pushConstants(makePush(band));
         commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize, kTilePixels);
     });
@@ -302,12 +313,15 @@ void LinkedList::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, 
     frame.addPass("oit.linked_list.band_total")
         .reads(frame.importBuffer(mSums), Access::TransferRead)
         .writes(frame.importBuffer(mBandTotals), Access::TransferWrite)
-        .record([this, index, pixels = band.tileCount * kTilePixels](gpu::Commands& commands, const frame::PassResources&) {
-            commands.copyBuffer(mSums, mBandTotals, 4, 4ull * gpu::PrefixSum::totalIndex(pixels + 1), 4 * index);
+        .record([this, index, pixels = band.tileCount * kTilePixels](gpu::Commands& commands,
+                                                                     const frame::PassResources&) {
+            commands.copyBuffer(mSums, mBandTotals, 4,
+                                4ull * gpu::PrefixSum::totalIndex(pixels + 1), 4 * index);
         });
 }
 
-void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
+void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
+                                const Band& band) {
     frame::PassBuilder& pass = frame.addPass("oit.linked_list.resolve");
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
@@ -321,17 +335,19 @@ void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
         pass.writes(inputs.result, Access::ComputeWrite);
     else
         pass.readsWrites(inputs.result, Access::ComputeWrite);
-    pass.record([this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
-        commands.bindCompute(mResolve);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres());
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
-        commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
-                      *inputs.texelSampler);
-        commands.bind(shader::kBindingResult, resources.image(inputs.result));
-        commands.pushConstants(makePush(band));
-        commands.dispatchThreads(std::uint64_t{band.tileCount} * kTilePixels, kTilePixels);
-    });
+    pass.record(
+        [this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindCompute(mResolve);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres());
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingResult, resources.image(inputs.result));
+            commands.pushConstants(makePush(band));
+            commands.dispatchThreads(std::uint64_t{band.tileCount} * kTilePixels, kTilePixels);
+        });
 }
 
 void LinkedList::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -343,7 +359,8 @@ void LinkedList::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
         declareResolve(frame, inputs, band);
     }
     frame.addReadback("oit.linked_list.counters", frame.importBuffer(mCounters), mCountersRead);
-    frame.addReadback("oit.linked_list.band_totals", frame.importBuffer(mBandTotals), mBandTotalsRead);
+    frame.addReadback("oit.linked_list.band_totals", frame.importBuffer(mBandTotals),
+                      mBandTotalsRead);
 }
 
 std::map<std::string, std::uint64_t> LinkedList::counters() {
@@ -354,18 +371,15 @@ std::map<std::string, std::uint64_t> LinkedList::counters() {
         stored += totals[i];
         dropped += totals[i] - std::min<std::uint64_t>(totals[i], mBands[i].entryCount);
     }
-    return {{"stored", stored},
-            {"surfaces", mSurfacesStored},
-            {"dropped", dropped},
-            {"bands", mBands.size()},
-            {"longestList", mLongest},
-            {"exhausted", counters.exhausted}};
+    return {{"stored", stored},        {"surfaces", mSurfacesStored},
+            {"dropped", dropped},      {"bands", mBands.size()},
+            {"longestList", mLongest}, {"exhausted", counters.exhausted}};
 }
 
 std::map<std::string, std::uint64_t> LinkedList::bytes() const {
     return {{"lists", mEntries.bytes() + mRecords.bytes()},
-            {"listOffsets", mOffsets.bytes() + mSums.bytes() + mSurfaceCounts.bytes() +
-                                mSurfaceCursors.bytes()},
+            {"listOffsets",
+             mOffsets.bytes() + mSums.bytes() + mSurfaceCounts.bytes() + mSurfaceCursors.bytes()},
             {"bins", mBins.bytes()}};
 }
 

@@ -48,14 +48,15 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
                                  {kSpheresBinding}, {1})),
       mDistanceKeys(makePipeline(device, name + ".distance_keys", spv::oit_media_bins_keys_comp,
                                  {kSpheresBinding}, {0})),
-      mGather(makePipeline(device, name + ".gather", spv::oit_media_bins_gather_comp,
-                           {kSpheresBinding,
-                            {shader::kBindingSortedSpheres, gpu::BindingType::StorageBuffer}})),
+      mGather(makePipeline(
+          device, name + ".gather", spv::oit_media_bins_gather_comp,
+          {kSpheresBinding, {shader::kBindingSortedSpheres, gpu::BindingType::StorageBuffer}})),
       mBoxRects(makePipeline(device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
                              {{shader::kBindingBoxes, gpu::BindingType::StorageBuffer},
                               {shader::kBindingVolumes, gpu::BindingType::StorageBuffer}})),
       mBinCount(makePipeline(device, name + ".bin_count", spv::oit_media_bins_bin_comp, {}, {0})),
-      mBinScatter(makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
+      mBinScatter(
+          makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
       mPrefixSum(device) {
     const std::uint64_t sphereBytes = std::max(inputs.sphereCount, 1u) * sizeof(shader::SphereData);
     if (inputs.sphereCount > 0) mSort.emplace(device, name + ".sort", inputs.sphereCount);
@@ -75,7 +76,8 @@ MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
     set.cursors = makeUints(device, name + ".cursors", mTileCount);
     set.sums = makeUints(device, name + ".sums", gpu::PrefixSum::sumCount(mTileCount + 1));
     set.pairs = makeUints(device, name + ".pairs", 1);
-    set.total = {device, {.name = name + ".total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
+    set.total = {device,
+                 {.name = name + ".total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
     return set;
 }
 
@@ -192,8 +194,8 @@ void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs)
 }
 
 void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {
-    for (const gpu::Buffer* buffer : {&mSortedSpheres, &mSpheres.offsets, &mSpheres.pairs,
-                                      &mBoxes.offsets, &mBoxes.pairs})
+    for (const gpu::Buffer* buffer :
+         {&mSortedSpheres, &mSpheres.offsets, &mSpheres.pairs, &mBoxes.offsets, &mBoxes.pairs})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
 }
 

@@ -48,7 +48,8 @@ class MediaBins {
         return {set.offsets.deviceAddress(), set.pairs.deviceAddress()};
     }
     Set makeSet(gpu::Device& device, const std::string& name, std::uint32_t count) const;
-    void recordSort(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres) const;
+    void recordSort(gpu::Commands& commands, const Inputs& inputs,
+                    const gpu::Buffer& spheres) const;
     void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
     void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                    const gpu::ComputePipeline& pipeline) const;

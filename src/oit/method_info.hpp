@@ -34,7 +34,8 @@ struct MethodInfo {
     std::vector<SettingInfo> settings;
 };
 
-/// Every registered method, in the order of the folder's CMakeLists. The span lives as long as the program.
+/// Every registered method, in the order of the folder's CMakeLists. The span lives as long as the
+/// program.
 std::span<const MethodInfo> listMethods();
 
 }  // namespace brume::oit

@@ -3,7 +3,8 @@
 //       "over": what most engines do.
 // Source: T. Porter, T. Duff: "Compositing Digital Images", SIGGRAPH 1984 (the operator).
 // Limits: overlapping media are not mixed and pop when their centres change order; surfaces are
-//         blended after all media; coloured transmission is blended by its mean; solids are not drawn.
+//         blended after all media; coloured transmission is blended by its mean; solids are not
+//         drawn.
 // Cost: 16 bytes per medium; one sort, one raster pass.
 #include <gpu/radix_sort.hpp>
 #include <oit/billboards.hpp>
@@ -60,9 +61,8 @@ void Sorted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
             commands.bindCompute(mKeysPipeline);
             bindFrame(commands, inputs);
             bindMedia(commands, inputs, resources.buffer(inputs.spheres));
-            commands.pushConstants(shader::BillboardPush{.count = mCount,
-                                                         .keys = mKeys.deviceAddress(),
-                                                         .order = mOrder.deviceAddress()});
+            commands.pushConstants(shader::BillboardPush{
+                .count = mCount, .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress()});
             commands.dispatch((mCount + 63) / 64);
             commands.computeBarrier();
             mSort.record(commands, mKeys.deviceAddress(), mOrder.deviceAddress(), mCount);
@@ -80,8 +80,9 @@ const MethodInfo& info() {
         .exactness = Exactness::Approximate,
         .passes = "1 sort + 1 raster",
         .bytesPerPixel = "0 (16 per medium)",
-        .limits = "overlapping media are not mixed; surfaces come after all media; colour of "
-                  "transmission is averaged; does not draw solids",
+        .limits =
+            "overlapping media are not mixed; surfaces come after all media; colour of "
+            "transmission is averaged; does not draw solids",
         .settings = {}};
     return kInfo;
 }

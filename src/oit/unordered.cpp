@@ -2,8 +2,8 @@
 // What: media and surfaces blended with "over" in the order of submission: the baseline that costs
 //       one pass and is right only where nothing overlaps on the screen.
 // Source: T. Porter, T. Duff: "Compositing Digital Images", SIGGRAPH 1984 (the operator).
-// Limits: order, overlap and coloured transmission (blended by its mean) are ignored; solids are not drawn.
-// Cost: nothing beyond the image; one raster pass.
+// Limits: order, overlap and coloured transmission (blended by its mean) are ignored; solids are
+// not drawn. Cost: nothing beyond the image; one raster pass.
 #include <oit/billboards.hpp>
 #include <oit/oit_method.hpp>
 

@@ -31,14 +31,13 @@ void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                                         const frame::PassResources& resources) {
             for (std::size_t i = 0; i < mSimulations.size(); ++i) {
                 const scene::EffectInstance& effect = mPrepared->scene.effects[i];
-                mSimulations[i]->recordAppearance(
-                    commands,
-                    {.worldFromEffect = effect.worldFromEffect,
-                     .cameraPosition = scene.camera().position,
-                     .medium = effect.medium,
-                     .firstId = firstParticleId(i),
-                     .spheres = &resources.buffer(spheres),
-                     .firstSphere = scene.firstEffectSphere(i)});
+                mSimulations[i]->recordAppearance(commands,
+                                                  {.worldFromEffect = effect.worldFromEffect,
+                                                   .cameraPosition = scene.camera().position,
+                                                   .medium = effect.medium,
+                                                   .firstId = firstParticleId(i),
+                                                   .spheres = &resources.buffer(spheres),
+                                                   .firstSphere = scene.firstEffectSphere(i)});
             }
         });
 }
@@ -48,9 +47,9 @@ std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& su
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
         const auto snapshot = mSimulations[i]->readState(submitter);
-        const auto shown = particles::makeSpheres(mSimulations[i]->effect(), snapshot.particles,
-                                                  snapshot.tick, effect.worldFromEffect,
-                                                  effect.medium, firstParticleId(i));
+        const auto shown =
+            particles::makeSpheres(mSimulations[i]->effect(), snapshot.particles, snapshot.tick,
+                                   effect.worldFromEffect, effect.medium, firstParticleId(i));
         spheres.insert(spheres.end(), shown.begin(), shown.end());
     }
     return spheres;

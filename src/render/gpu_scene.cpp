@@ -224,14 +224,21 @@ void GpuScene::uploadVolumes(gpu::Submitter& submitter, const PreparedScene& pre
         volumes.push_back({.indexFromWorld = glm::mat3(glm::inverse(linear)),
                            .worldFromIndex = glm::mat3(linear),
                            .medium = prepared.scene.volumes[i].medium});
-        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles) continue;
-        const auto add = [&](const dvec3& lo, const dvec3& size, std::uint32_t kind, std::uint64_t offset, float value) {
+        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles)
+            continue;
+        const auto add = [&](const dvec3& lo, const dvec3& size, std::uint32_t kind,
+                             std::uint64_t offset, float value) {
             const dvec3 corner = transformPoint(grid.worldFromIndex, lo) - mCamera.position;
-            boxes.push_back({.corner = vec3(corner), .volume = index, .size = vec3(size), .kind = kind,
-                             .valueOffset = static_cast<std::uint32_t>(offset), .value = value});
+            boxes.push_back({.corner = vec3(corner),
+                             .volume = index,
+                             .size = vec3(size),
+                             .kind = kind,
+                             .valueOffset = static_cast<std::uint32_t>(offset),
+                             .value = value});
         };
         for (const volumes::Brick& brick : grid.bricks)
-            add(dvec3(brick.origin), dvec3(volumes::kBrickCells), shader::kBoxBrick, values.size() + brick.valueOffset, brick.maxValue);
+            add(dvec3(brick.origin), dvec3(volumes::kBrickCells), shader::kBoxBrick,
+                values.size() + brick.valueOffset, brick.maxValue);
         for (const volumes::ValueBox& box : grid.boxes) {
             if (box.soft)
                 add(box.lo - 1.0, box.hi - box.lo + 2.0, shader::kBoxSoft, 0, box.value);
@@ -241,14 +248,16 @@ void GpuScene::uploadVolumes(gpu::Submitter& submitter, const PreparedScene& pre
         values.insert(values.end(), grid.values.begin(), grid.values.end());
     }
     if (values.size() > 0xffffffffull)
-        throw failure("uploading volumes", "", fmt::format("{} brick values, allowed are 2^32", values.size()));
+        throw failure("uploading volumes", "",
+                      fmt::format("{} brick values, allowed are 2^32", values.size()));
     mBoxCount = static_cast<std::uint32_t>(boxes.size());
     mVolumes = makeArray(submitter, "render.volumes", std::move(volumes));
     mBoxes = makeArray(submitter, "render.boxes", std::move(boxes));
     mBrickValues = makeArray(submitter, "render.brick_values", std::move(values));
 }
 
-const gpu::Image* GpuScene::uploadTexture(gpu::Submitter& submitter, const scene::Texture* texture) {
+const gpu::Image* GpuScene::uploadTexture(gpu::Submitter& submitter,
+                                          const scene::Texture* texture) {
     gpu::Image& image = mTextures[texture];
     if (image) return &image;
     image = gpu::Image(submitter.device(),
@@ -257,9 +266,8 @@ const gpu::Image* GpuScene::uploadTexture(gpu::Submitter& submitter, const scene
                         .width = texture ? static_cast<std::uint32_t>(texture->width) : 1,
                         .height = texture ? static_cast<std::uint32_t>(texture->height) : 1});
     const std::vector<vec4> texels = texture ? texture->texels : std::vector<vec4>{vec4(1)};
-    submitter.submitAndWait("upload texture", [&](gpu::Commands& commands) {
-        gpu::upload(commands, image, texels);
-    });
+    submitter.submitAndWait("upload texture",
+                            [&](gpu::Commands& commands) { gpu::upload(commands, image, texels); });
     return &image;
 }
 
@@ -272,12 +280,13 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
         materials.push_back(makeMaterial(material));
     for (const scene::Mesh& mesh : prepared.scene.meshes) {
         const dmat3 linear(mesh.worldFromObject);
-        meshes.push_back({.relativeFromObject = relativeFrom(mesh.worldFromObject, mCamera.position),
-                          .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
-                          .orientation = glm::determinant(linear) < 0 ? -1.0f : 1.0f,
-                          .firstVertex = static_cast<std::uint32_t>(vertices.size()),
-                          .firstIndex = static_cast<std::uint32_t>(indices.size()),
-                          .material = mesh.material});
+        meshes.push_back(
+            {.relativeFromObject = relativeFrom(mesh.worldFromObject, mCamera.position),
+             .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
+             .orientation = glm::determinant(linear) < 0 ? -1.0f : 1.0f,
+             .firstVertex = static_cast<std::uint32_t>(vertices.size()),
+             .firstIndex = static_cast<std::uint32_t>(indices.size()),
+             .material = mesh.material});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -319,8 +328,8 @@ oit::Inputs GpuScene::makeInputs() const {
 std::uint64_t GpuScene::bytes() const {
     std::uint64_t sum = mEnvironment.bytes();
     for (const auto& [texture, image] : mTextures) sum += image.bytes();
-    for (const gpu::Buffer* buffer : {&mFrame, &mLights, &mMedia, &mSpheres, &mBoxes, &mVolumes, &mBrickValues,
-                                      &mVertices, &mIndices, &mMeshes, &mMaterials})
+    for (const gpu::Buffer* buffer : {&mFrame, &mLights, &mMedia, &mSpheres, &mBoxes, &mVolumes,
+                                      &mBrickValues, &mVertices, &mIndices, &mMeshes, &mMaterials})
         sum += buffer->bytes();
     return sum;
 }

@@ -19,10 +19,13 @@ class GpuScene {
   public:
     GpuScene(gpu::Submitter& submitter, const PreparedScene& scene);
 
-    /// Puts all spheres, those of effects too, into an order drawn with that seed: no image may change.
+    /// Puts all spheres, those of effects too, into an order drawn with that seed: no image may
+    /// change.
     void shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed);
 
-    const scene::CameraFrame& camera() const { return mCamera; }  ///< of the samples; may stand in front of the scene's (orthographic)
+    const scene::CameraFrame& camera() const {
+        return mCamera;
+    }  ///< of the samples; may stand in front of the scene's (orthographic)
     VkExtent2D extent() const;
 
     /// Everything but the frame's own references.

@@ -15,7 +15,8 @@ void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
         const scene::Material& material = scene.materials[mesh.material];
         if (material.type == scene::MaterialType::Opaque) continue;
         needs.surfaces = true;
-        if (material.type == scene::MaterialType::Solid && !isGrey(material.absorption + material.scattering))
+        if (material.type == scene::MaterialType::Solid &&
+            !isGrey(material.absorption + material.scattering))
             needs.colouredExtinction = true;
     }
 }
@@ -23,11 +24,13 @@ void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
 void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
         const volumes::VolumeGrid& grid = prepared.volumes[i];
-        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles) continue;
+        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles)
+            continue;
         if (grid.isEmpty()) continue;
         needs.boxes = true;
         if (!grid.bricks.empty()) needs.varyingDensity = true;
-        if (std::any_of(grid.boxes.begin(), grid.boxes.end(), [](const auto& box) { return box.soft; }))
+        if (std::any_of(grid.boxes.begin(), grid.boxes.end(),
+                        [](const auto& box) { return box.soft; }))
             needs.varyingDensity = true;
     }
 }
@@ -63,8 +66,10 @@ std::string describe(const oit::Needs& needs) {
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
            line("varyingLight", needs.varyingLight, "point or spot lights on media") +
-           line("colouredExtinction", needs.colouredExtinction, "three exponentials instead of one") +
-           fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights", needs.lights);
+           line("colouredExtinction", needs.colouredExtinction,
+                "three exponentials instead of one") +
+           fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
+                       needs.lights);
 }
 
 }  // namespace brume::render

@@ -47,15 +47,14 @@ OpaquePass::OpaquePass(gpu::Device& device)
                        .depthFormat = kDepthFormat,
                        .depthTest = true,
                        .depthWrite = true}),
-      mTriangles(device,
-                 {.name = "render.triangles",
-                  .vertexSpirv = spv::common_mesh_vert,
-                  .fragmentSpirv = spv::render_triangles_frag,
-                  .bindings = oit::join(
-                      oit::join(oit::frameBindings(), oit::meshBindings()),
-                      {{shader::kBindingOpaqueT, gpu::BindingType::SampledImage},
-                       {shader::kBindingTriangles, gpu::BindingType::StorageBuffer}}),
-                  .pushConstantBytes = sizeof(shader::MeshPush)}) {}
+      mTriangles(device, {.name = "render.triangles",
+                          .vertexSpirv = spv::common_mesh_vert,
+                          .fragmentSpirv = spv::render_triangles_frag,
+                          .bindings = oit::join(
+                              oit::join(oit::frameBindings(), oit::meshBindings()),
+                              {{shader::kBindingOpaqueT, gpu::BindingType::SampledImage},
+                               {shader::kBindingTriangles, gpu::BindingType::StorageBuffer}}),
+                          .pushConstantBytes = sizeof(shader::MeshPush)}) {}
 
 void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                          oit::Inputs& inputs) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind everything: background and opaque meshes, as a host's renderer would supply them.
+// What lies behind everything: background and opaque meshes, as a host's renderer would supply
+// them.
 #pragma once
 
 #include <render/gpu_scene.hpp>

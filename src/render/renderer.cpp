@@ -26,10 +26,22 @@ std::uint64_t takeShuffle(scene::Settings& settings) {
     return static_cast<std::uint64_t>(reader.integer("shuffle", 0, 0, 1ll << 62));
 }
 
+/// No shadow store exists yet: lights that ask for one shine through everything.
+void warnOfMissingShadows(const scene::Scene& scene, const Log& log) {
+    for (const scene::Light& light : scene.lights)
+        if (light.type != scene::LightType::Ambient && light.shadow != "none") {
+            log.warning(fmt::format("rendering: shadow store \"{}\" is not available, lights cast "
+                                    "no shadows on the device (--shadow none tells the reference)",
+                                    light.shadow));
+            return;
+        }
+}
+
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(gpu::Device& device_, const PreparedScene& scene_, const Options& options_, const Log& log_)
+    Impl(gpu::Device& device_, const PreparedScene& scene_, const Options& options_,
+         const Log& log_)
         : device(device_),
           prepared(scene_),
           options(options_),
@@ -41,6 +53,7 @@ struct Renderer::Impl {
           scene(submitter, prepared),
           effects(submitter, prepared),
           opaque(device) {
+        warnOfMissingShadows(prepared.scene, log);
         if (shuffle != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
             scene.shuffleSpheres(submitter, shuffle);
@@ -57,7 +70,8 @@ struct Renderer::Impl {
                                                  .bytes = 4 * pixels,
                                                  .memory = gpu::MemoryKind::Readback});
         }
-        method->prepare([this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
+        method->prepare(
+            [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
     /// What every frame begins with: particles, background, opaque meshes.
@@ -72,7 +86,8 @@ struct Renderer::Impl {
     void measure(const oit::OitMethod::DeclareFunction& declare) {
         frame::FrameBuilder frame(pool);
         declare(frame, declareInputs(frame));
-        submitter.submitAndWait("measure", [&](gpu::Commands& commands) { frame.execute(commands); });
+        submitter.submitAndWait("measure",
+                                [&](gpu::Commands& commands) { frame.execute(commands); });
     }
 
     void declareFrame(frame::FrameBuilder& frame) {
@@ -85,14 +100,16 @@ struct Renderer::Impl {
         method->declare(frame, inputs);
         if (options.triangleHashes) {
             opaque.declareTriangles(frame, scene, inputs, triangles);
-            frame.addReadback("render.triangles_read", frame.importBuffer(triangles), trianglesRead);
+            frame.addReadback("render.triangles_read", frame.importBuffer(triangles),
+                              trianglesRead);
         }
         frame.addReadback("render.image_read", inputs.result, image);
     }
 
     Image readImage() const {
         const auto texels = image.mappedAs<vec4>();
-        Image samples(static_cast<int>(scene.extent().width), static_cast<int>(scene.extent().height));
+        Image samples(static_cast<int>(scene.extent().width),
+                      static_cast<int>(scene.extent().height));
         for (std::size_t i = 0; i < samples.pixels.size(); ++i) samples.pixels[i] = vec3(texels[i]);
         const int n = prepared.scene.image.supersample;
         return n > 1 ? downsample(samples, n) : samples;
@@ -170,9 +187,10 @@ Result Renderer::renderFrame() {
     result.bytes = mImpl->bytes();
     result.counters = mImpl->method->counters();
     if (result.counters["exhausted"] > 0)
-        mImpl->log.warning(fmt::format(
-            "rendering: {}: {} pixels reached this device's limit of loop iterations and are not exact",
-            mImpl->options.method, result.counters["exhausted"]));
+        mImpl->log.warning(
+            fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "
+                        "and are not exact",
+                        mImpl->options.method, result.counters["exhausted"]));
     return result;
 }
 

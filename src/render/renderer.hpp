@@ -26,7 +26,8 @@ namespace brume::render {
 struct PreparedScene {
     scene::Scene scene;
     std::vector<volumes::VolumeGrid> volumes;  ///< parallel to scene.volumes
-    std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to particles; effects are simulated by the renderer
+    std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to
+                                               ///< particles; effects are simulated by the renderer
 };
 
 struct Options {
@@ -43,8 +44,9 @@ struct PassTime {
 
 struct Result {
     Image image;  ///< scene.image.width x height
-    std::vector<std::uint32_t> triangles;  ///< as reference::Result::triangles; empty unless asked for
-    double timeMs = 0;                     ///< first to last command of the frame, on the device
+    std::vector<std::uint32_t>
+        triangles;      ///< as reference::Result::triangles; empty unless asked for
+    double timeMs = 0;  ///< first to last command of the frame, on the device
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
     std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
@@ -54,12 +56,14 @@ struct Result {
 /// As the first host of the library it submits and waits itself.
 class Renderer {
   public:
-    /// Uploads the scene and simulates its effects to their time. Throws an Error (input: unknown method, bad setting;
-    /// failure: device).
-    Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options, const Log& log);
+    /// Uploads the scene and simulates its effects to their time. Throws an Error (input: unknown
+    /// method, bad setting; failure: device).
+    Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
+             const Log& log);
     ~Renderer();
 
-    /// Renders one frame and reads it back. May be called again (benchmarks): same image, new times.
+    /// Renders one frame and reads it back. May be called again (benchmarks): same image, new
+    /// times.
     Result renderFrame();
 
     /// Particles as simulated on the device, read back: for the reference.

@@ -2,10 +2,10 @@
 // The exact radiance and transmittance of one medium by itself, for blending with "over".
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/lighting.glsl"
 #include "../../common/density.glsl"
 #include "../../common/exponential.glsl"
 #include "../../common/intersect.glsl"
+#include "../../common/lighting.glsl"
 
 layout(constant_id = 0) const bool kBoxes = true;
 layout(constant_id = 1) const bool kVarying = true;
@@ -47,11 +47,16 @@ void main() {
         t.y = min(t.y, limit);
         densityLength = boxDensityLength(ray, box, volume, t);
     } else {
-        SphereData sphere = SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u, kind.y);
-        if (!intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t) || t.x >= limit) discard;
+        SphereData sphere = SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz,
+                                       tintDensity.w, kind.x, 0u, kind.y);
+        if (!intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t) ||
+            t.x >= limit)
+            discard;
         t.y = min(t.y, limit);
-        densityLength = (t.y - t.x) * (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x + (t.y - t.x) * kNodes))
-                                                : sphere.density);
+        densityLength =
+            (t.y - t.x) *
+            (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x + (t.y - t.x) * kNodes))
+                      : sphere.density);
     }
     MediumData medium = media[kind.x];
     vec3 tint = kBoxes && kind.z != 0u ? vec3(1) : tintDensity.xyz;
@@ -59,7 +64,8 @@ void main() {
     vec3 decay = kColoured ? exp(-depth) : vec3(exp(-depth.x));
     vec3 middle = ray.origin + ray.direction * (0.5 * (t.x + t.y));
     vec3 light = scatteredRadiance(medium, middle, ray.direction);
-    vec3 source = tint * (medium.extinction * medium.albedo * light + medium.emission) * densityLength;
+    vec3 source =
+        tint * (medium.extinction * medium.albedo * light + medium.emission) * densityLength;
     color.rgb = source * meanDecay(depth, decay);
     color.a = 1.0 - (decay.x + decay.y + decay.z) / 3.0;
 }

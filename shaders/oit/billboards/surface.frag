@@ -12,7 +12,9 @@ layout(location = 0) out vec4 color;
 
 void main() {
     SurfacePoint point = findSurfacePoint(push.meshIndex);
-    if (point.material.type == kMaterialSolid || point.t >= texelFetch(opaqueT, ivec2(gl_FragCoord.xy), 0).x) discard;
+    if (point.material.type == kMaterialSolid ||
+        point.t >= texelFetch(opaqueT, ivec2(gl_FragCoord.xy), 0).x)
+        discard;
     float coverage = point.material.coverage * point.color.a;
     vec3 transmission = point.material.transmission * point.color.rgb;
     color.rgb = coverage * sentRadiance(point, point.material.reflected);

@@ -3,6 +3,7 @@
 // and source with an integer count, reset in free space.
 #ifndef BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
 #define BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
+#include "path.glsl"
 
 // Extinction, source and end of the interval that an entry stands for.
 void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float end) {
@@ -14,8 +15,8 @@ void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float e
     if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
         BoxData box = boxes[index];
         VolumeData volume = volumes[box.volume];
-        intersectBox(volume.indexFromWorld * (ray.origin - box.corner), volume.indexFromWorld * ray.direction,
-                     box.size, t);
+        intersectBox(volume.indexFromWorld * (ray.origin - box.corner),
+                     volume.indexFromWorld * ray.direction, box.size, t);
         mediumIndex = volume.medium;
         density = box.value;
     } else {
@@ -28,8 +29,9 @@ void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float e
     end = t.y;
     MediumData medium = media[mediumIndex];
     extinction = medium.extinction * density;
-    source = tint * (extinction * medium.albedo * scatteredRadiance(medium, vec3(0), ray.direction) +
-                     medium.emission * density);
+    source =
+        tint * (extinction * medium.albedo * scatteredRadiance(medium, vec3(0), ray.direction) +
+                medium.emission * density);
 }
 
 // The open intervals' ends, sorted, live in list[head .. tail): the entries there are used up.
@@ -73,8 +75,10 @@ void resolveConstant(inout Path path, Solids solids, float limit) {
         uvec2 current = isEnter ? entry : end;
         if (kSurfaces && isEnter && (entry.y >> kKindShift) == kKindSurface) {
             SurfaceRecord record = loadRecord(entry);
-            if (record.face == kFaceThin) crossThin(path, record);
-            else crossSolid(solids, record);
+            if (record.face == kFaceThin)
+                crossThin(path, record);
+            else
+                crossSolid(solids, record);
             // The slot of the surface joins the free ones: move the open ends over it.
             for (uint i = next; i > head; --i) storeEntry(i, loadEntry(i - 1u));
             ++head;

@@ -14,7 +14,8 @@ void main() {
         uint last = UintArray(push.sphereOffsets).at[tile + 1u];
         for (uint k = UintArray(push.sphereOffsets).at[tile]; k < last; ++k) {
             SphereData sphere = spheres[UintArray(push.spherePairs).at[k]];
-            for (uint row = 0u; row < kRows; ++row) counts[row] += hitsSphere(sphere, row, t) ? 1u : 0u;
+            for (uint row = 0u; row < kRows; ++row)
+                counts[row] += hitsSphere(sphere, row, t) ? 1u : 0u;
         }
     }
     if (kBoxes) {
@@ -22,7 +23,8 @@ void main() {
         for (uint k = UintArray(push.boxOffsets).at[tile]; k < last; ++k) {
             BoxData box = boxes[UintArray(push.boxPairs).at[k]];
             VolumeData volume = volumes[box.volume];
-            for (uint row = 0u; row < kRows; ++row) counts[row] += hitsBox(box, volume, row, t) ? 1u : 0u;
+            for (uint row = 0u; row < kRows; ++row)
+                counts[row] += hitsBox(box, volume, row, t) ? 1u : 0u;
         }
     }
     for (uint row = 0u; row < kRows; ++row)

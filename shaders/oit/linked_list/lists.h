@@ -17,14 +17,14 @@ BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 struct ListPush {
-    uint meshIndex;  // surface passes: which mesh is drawn; first, where mesh.vert looks for it
-    uint firstTile;  // of the band
-    uint tileCount;  // in the band
-    uint64_t entries;        // uvec2[]
-    uint64_t offsets;        // uint[pixels + 1]: counts until they are summed
-    uint64_t surfaceCounts;  // uint[pixels]
-    uint64_t surfaceCursors; // uint[pixels]: how many surfaces are stored already
-    uint64_t records;        // SurfaceRecord[]
+    uint meshIndex;    // surface passes: which mesh is drawn; first, where mesh.vert looks for it
+    uint firstTile;    // of the band
+    uint tileCount;    // in the band
+    uint64_t entries;  // uvec2[]
+    uint64_t offsets;  // uint[pixels + 1]: counts until they are summed
+    uint64_t surfaceCounts;               // uint[pixels]
+    uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
+    uint64_t records;                     // SurfaceRecord[]
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
     uint64_t boxOffsets, boxPairs;
     uint64_t counters;  // ListCounters
@@ -46,7 +46,8 @@ BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
 
 struct ListCounters {
     uint records;    // surface records handed out in this band
-    uint exhausted;  // pixels that reached kMaxIterations: the image is not exact, the host must say so
+    uint exhausted;  // pixels that reached kMaxIterations: the image is not exact, the host must
+                     // say so
 };
 
 struct TileTotals {
@@ -59,7 +60,7 @@ struct TileTotals {
 BRUME_CONST uint kMaxIterations = 64000u;
 
 // Own bindings.
-BRUME_CONST uint kBindingResult = 8u;     // RGBA32F, written by resolve
+BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 
 BRUME_STRUCTS_END
 

@@ -28,7 +28,8 @@ bool beginColumn(out uint tile, out uint firstPixel) {
     uint column = thread % kTileSize;
     tile = push.firstTile + bandTile;
     firstPixel = bandTile * 64u + column;
-    uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);
+    uvec2 corner =
+        uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);
     for (uint row = 0u; row < kRows; ++row) {
         uvec2 pixel = corner + uvec2(0u, row);
         bool inside = all(lessThan(pixel, frame.size));
@@ -40,7 +41,8 @@ bool beginColumn(out uint tile, out uint firstPixel) {
 
 bool hitsSphere(SphereData sphere, uint row, out vec2 t) {
     return intersectSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
-                           sphere.radius, t) && t.x < columnLimits[row];
+                           sphere.radius, t) &&
+           t.x < columnLimits[row];
 }
 
 bool hitsBox(BoxData box, VolumeData volume, uint row, out vec2 t) {

@@ -3,12 +3,14 @@
 #ifndef BRUME_OIT_LINKED_LIST_PATH_GLSL
 #define BRUME_OIT_LINKED_LIST_PATH_GLSL
 #include "../../common/exponential.glsl"
+#include "lists.h"
 
 struct Path {
     vec3 radiance;
-    vec3 surfaces;        // product of the transmissions of the thin surfaces crossed
-    vec3 depthHi, depthLo;  // optical depth of the media crossed, compensated: T = surfaces * exp(-depth)
-    vec3 decay;             // exp(-depth)
+    vec3 surfaces;  // product of the transmissions of the thin surfaces crossed
+    vec3 depthHi,
+        depthLo;  // optical depth of the media crossed, compensated: T = surfaces * exp(-depth)
+    vec3 decay;   // exp(-depth)
 };
 
 // The solids that the ray is inside: constant media.

@@ -2,6 +2,7 @@
 // The order of pixels in the lists, and the arrays behind the push constants.
 #ifndef BRUME_OIT_LINKED_LIST_PIXELS_GLSL
 #define BRUME_OIT_LINKED_LIST_PIXELS_GLSL
+#include "../../common/bindings.glsl"
 #include "../../gpu/address.glsl"
 #include "lists.h"
 
@@ -11,7 +12,8 @@ layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
 
 uint pixelIndex(uvec2 pixel) {
     uvec2 tile = pixel / kTileSize, inside = pixel % kTileSize;
-    return (tile.y * frame.tiles.x + tile.x - push.firstTile) * 64u + inside.y * kTileSize + inside.x;
+    return (tile.y * frame.tiles.x + tile.x - push.firstTile) * 64u + inside.y * kTileSize +
+           inside.x;
 }
 
 bool isInBand(uvec2 pixel) {

@@ -4,17 +4,17 @@
 // over the set of open media where densities or light vary.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/lighting.glsl"
 #include "../../common/camera.glsl"
 #include "../../common/intersect.glsl"
+#include "../../common/lighting.glsl"
 #include "pixels.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kSurfaces = true;
 layout(constant_id = 1) const bool kBoxes = true;
-layout(constant_id = 2) const bool kVarying = true;        // densities or light vary along the ray
-layout(constant_id = 3) const bool kVaryingLight = true;   // point or spot lights
-layout(constant_id = 4) const bool kColoured = true;       // extinction differs between channels
+layout(constant_id = 2) const bool kVarying = true;       // densities or light vary along the ray
+layout(constant_id = 3) const bool kVaryingLight = true;  // point or spot lights
+layout(constant_id = 4) const bool kColoured = true;      // extinction differs between channels
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
@@ -25,17 +25,17 @@ layout(binding = kBindingResult, rgba32f) writeonly uniform image2D result;
 const float kFar = 1e30;  // where the sky is
 
 Ray ray;
-uint first;   // of the list
-uint count;   // entries in it
+uint first;  // of the list
+uint count;  // entries in it
 uint iterations = 0u;
 
 uvec2 loadEntry(uint i) { return Uvec2Array(push.entries).at[first + i]; }
 void storeEntry(uint i, uvec2 entry) { Uvec2Array(push.entries).at[first + i] = entry; }
 SurfaceRecord loadRecord(uvec2 entry) { return RecordArray(push.records).at[entry.y & kIndexMask]; }
 
+#include "constant.glsl"
 #include "path.glsl"
 #include "sort.glsl"
-#include "constant.glsl"
 #include "varying.glsl"
 
 // Solids around the eye: what the ray leaves without having entered it, seen over the whole list,
@@ -56,7 +56,8 @@ Solids findSolidsAroundEye(uint surfaceCount) {
 void main() {
     uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
     uint tile = push.firstTile + bandTile;
-    uvec2 pixel = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
+    uvec2 pixel =
+        uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
     if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
     uint index = bandTile * 64u + gl_LocalInvocationIndex;
     first = UintArray(push.offsets).at[index];

@@ -11,7 +11,8 @@ uint lastKeys[kRows];
 
 void storeInterval(uint row, uvec2 entry) {
     uint slot = ends[row];
-    // Equal distances stand in the order of kind and index, which does not depend on the order of submission.
+    // Equal distances stand in the order of kind and index, which does not depend on the order of
+    // submission.
     bool sorted = entry.x > lastKeys[row] || slot == begins[row];
     uint limit = sorted ? slot : begins[row];
     while (slot > limit) {
@@ -41,7 +42,8 @@ void main() {
             SphereData sphere = spheres[index];
             for (uint row = 0u; row < kRows; ++row)
                 if (hitsSphere(sphere, row, t))
-                    storeInterval(row, uvec2(floatBitsToUint(t.x), kKindSphere << kKindShift | index));
+                    storeInterval(row,
+                                  uvec2(floatBitsToUint(t.x), kKindSphere << kKindShift | index));
         }
     }
     if (kBoxes) {

@@ -11,7 +11,8 @@ layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 void main() {
     SurfacePoint point = findSurfacePoint(push.meshIndex);
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    bool isSeen = point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
+    bool isSeen =
+        point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
     if (!isSeen || !isInBand(pixel)) return;
     uint index = pixelIndex(pixel);
     atomicAdd(UintArray(push.offsets).at[index], 1u);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Media whose density varies along the ray, or light that does: between events (a medium begins or
-// ends, the ray crosses a voxel plane) every density is a polynomial of degree <= 4, so that Gauss's
-// rule with three points gives the optical depth exactly.
+// ends, the ray crosses a voxel plane) every density is a polynomial of degree <= 4, so that
+// Gauss's rule with three points gives the optical depth exactly.
 #ifndef BRUME_OIT_LINKED_LIST_VARYING_GLSL
 #define BRUME_OIT_LINKED_LIST_VARYING_GLSL
 #include "../../common/density.glsl"
+#include "path.glsl"
 
 // Gauss-Legendre nodes and weights on [0, 1], and the integrals of the node polynomials up to each
 // node (the Butcher matrix of the three-stage Gauss method).
@@ -21,14 +22,16 @@ struct Nodes {
     vec3 source[3];
 };
 
-void addToNodes(inout Nodes nodes, MediumData medium, vec3 tint, vec3 densities, vec3 t, vec3 constantLight) {
+void addToNodes(inout Nodes nodes, MediumData medium, vec3 tint, vec3 densities, vec3 t,
+                vec3 constantLight) {
     for (int k = 0; k < 3; ++k) {
-        vec3 light = kVaryingLight
-                         ? scatteredRadiance(medium, ray.origin + ray.direction * t[k], ray.direction)
-                         : constantLight;
+        vec3 light = kVaryingLight ? scatteredRadiance(medium, ray.origin + ray.direction * t[k],
+                                                       ray.direction)
+                                   : constantLight;
         vec3 extinction = medium.extinction * densities[k];
         nodes.extinction[k] += extinction;
-        nodes.source[k] += tint * (extinction * medium.albedo * light + medium.emission * densities[k]);
+        nodes.source[k] +=
+            tint * (extinction * medium.albedo * light + medium.emission * densities[k]);
     }
 }
 
@@ -42,7 +45,10 @@ Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
         if (kSurfaces) {
             vec3 scattering = solids.scatteringHi + solids.scatteringLo;
             nodes.extinction[k] = solids.extinctionHi + solids.extinctionLo;
-            nodes.source[k] = scattering * scatteredRadiance(isotropic, ray.origin + ray.direction * min(t[k], 1e6), ray.direction);
+            nodes.source[k] =
+                scattering * scatteredRadiance(isotropic,
+                                               ray.origin + ray.direction * min(t[k], 1e6),
+                                               ray.direction);
         }
     }
     for (uint i = 0u; i < openCount; ++i) {
@@ -68,8 +74,8 @@ Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
     return nodes;
 }
 
-// A step short enough for three nodes near every light: 1/d^2 has its poles at the light, and a kink
-// where it is capped at the light's radius, which steps must not cross.
+// A step short enough for three nodes near every light: 1/d^2 has its poles at the light, and a
+// kink where it is capped at the light's radius, which steps must not cross.
 float limitStepByLights(float position) {
     float limit = kFar;
     for (uint i = 0u; i < frame.lightCount; ++i) {
@@ -83,15 +89,18 @@ float limitStepByLights(float position) {
         float chord = sqrt(max(radius * radius - aside2, 0.0));
         float enter = ahead - chord, leave = ahead + chord, slack = 1e-3 * radius;
         float own = ahead > 0.0 ? max(distance / 3.0, 0.5 * sqrt(aside2)) : distance * 0.5;
-        if (enter > slack) own = min(own, chord > 0.0 ? enter : own);
-        else if (leave > slack) own = min(leave, 0.5 * radius);
+        if (enter > slack)
+            own = min(own, chord > 0.0 ? enter : own);
+        else if (leave > slack)
+            own = min(leave, 0.5 * radius);
         limit = min(limit, max(own, slack));
     }
     return limit;
 }
 
-// Integrates source * exp(-depth) over one step. The mean source radiance is taken exactly; only its
-// variation within the step is left to the nodes. False (and nothing done) if the step is too long for that.
+// Integrates source * exp(-depth) over one step. The mean source radiance is taken exactly; only
+// its variation within the step is left to the nodes. False (and nothing done) if the step is too
+// long for that.
 bool crossVarying(inout Path path, Nodes nodes, float distance) {
     vec3 extinction = vec3(0), source = vec3(0);
     for (int k = 0; k < 3; ++k) {
@@ -104,8 +113,9 @@ bool crossVarying(inout Path path, Nodes nodes, float distance) {
     bvec3 empty = lessThan(depth, vec3(1e-7));
     vec3 variation = vec3(0), size = vec3(0);
     for (int k = 0; k < 3; ++k) {
-        vec3 depthAtNode = distance * (kUpTo[k][0] * nodes.extinction[0] + kUpTo[k][1] * nodes.extinction[1] +
-                                       kUpTo[k][2] * nodes.extinction[2]);
+        vec3 depthAtNode =
+            distance * (kUpTo[k][0] * nodes.extinction[0] + kUpTo[k][1] * nodes.extinction[1] +
+                        kUpTo[k][2] * nodes.extinction[2]);
         vec3 difference = nodes.source[k] - mean * nodes.extinction[k];
         variation += kWeights[k] * difference * expChannels(-max(depthAtNode, 0.0));
         size += kWeights[k] * abs(difference);
@@ -113,15 +123,16 @@ bool crossVarying(inout Path path, Nodes nodes, float distance) {
     variation = mix(variation * distance, vec3(0), empty);
     size = mix(before * size * distance, vec3(0), empty);
     vec3 error = size * min(depth * depth * depth, vec3(1)) * 0.02;
-    if (max(error.x, max(error.y, error.z)) > 1e-6 && max(depth.x, max(depth.y, depth.z)) > 0.25) return false;
+    if (max(error.x, max(error.y, error.z)) > 1e-6 && max(depth.x, max(depth.y, depth.z)) > 0.25)
+        return false;
     crossConstant(path, extinction, source, distance);
     path.radiance += before * variation;
     return true;
 }
 
 void resolveVarying(inout Path path, Solids solids, float limit) {
-    // The open media live in list[0 .. openCount), unordered, as (bits of their end, kind and index):
-    // the entries there are used up.
+    // The open media live in list[0 .. openCount), unordered, as (bits of their end, kind and
+    // index): the entries there are used up.
     uint openCount = 0u, next = 0u;
     float position = 0.0, stepLimit = kFar;
     while (iterations < kMaxIterations) {
@@ -136,7 +147,8 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
             if (end < leave) leave = end, leaving = i;
             if (kBoxes && (open.y >> kKindShift) == kKindBox) {
                 BoxData box = boxes[open.y & kIndexMask];
-                plane = min(plane, nextPlane(box, localRay(ray, box, volumes[box.volume]), position));
+                plane =
+                    min(plane, nextPlane(box, localRay(ray, box, volumes[box.volume]), position));
             }
         }
         iterations += 2u * openCount;
@@ -162,8 +174,10 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
         if (enter <= leave) {
             if (kSurfaces && (entry.y >> kKindShift) == kKindSurface) {
                 SurfaceRecord record = loadRecord(entry);
-                if (record.face == kFaceThin) crossThin(path, record);
-                else crossSolid(solids, record);
+                if (record.face == kFaceThin)
+                    crossThin(path, record);
+                else
+                    crossSolid(solids, record);
             } else {
                 vec2 t;
                 uint index = entry.y & kIndexMask;
@@ -171,7 +185,8 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
                     LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume]);
                     intersectBox(local.origin, local.direction, boxes[index].size, t);
                 } else {
-                    intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);
+                    intersectSphere(ray.origin, ray.direction, spheres[index].center,
+                                    spheres[index].radius, t);
                 }
                 storeEntry(openCount, uvec2(floatBitsToUint(t.y), entry.y));
                 ++openCount;

@@ -15,13 +15,16 @@ void main() {
     if (i >= push.count) return;
     uvec2 rect = Uvec2Array(push.rects).at[i];
     if (rect.x > rect.y && rect == uvec2(1u, 0u)) return;
-    uvec2 first = uvec2(rect.x & 0xffffu, rect.x >> 16), last = uvec2(rect.y & 0xffffu, rect.y >> 16);
-    uint start = first.y + (gl_GlobalInvocationID.y + kBinRowSlices - first.y % kBinRowSlices) % kBinRowSlices;
+    uvec2 first = uvec2(rect.x & 0xffffu, rect.x >> 16),
+          last = uvec2(rect.y & 0xffffu, rect.y >> 16);
+    uint start = first.y + (gl_GlobalInvocationID.y + kBinRowSlices - first.y % kBinRowSlices) %
+                               kBinRowSlices;
     for (uint y = start; y <= last.y; y += kBinRowSlices)
         for (uint x = first.x; x <= last.x; ++x) {
             uint tile = y * frame.tiles.x + x;
             if (kScatter) {
-                uint slot = UintArray(push.counts).at[tile] + atomicAdd(UintArray(push.cursors).at[tile], 1u);
+                uint slot = UintArray(push.counts).at[tile] +
+                            atomicAdd(UintArray(push.cursors).at[tile], 1u);
                 UintArray(push.pairs).at[slot] = i;
             } else {
                 atomicAdd(UintArray(push.counts).at[tile], 1u);

@@ -18,5 +18,6 @@ void main() {
     SphereData sphere = spheres[UintArray(push.values).at[i]];
     sorted[i] = sphere;
     bool valid = sphere.radius > 0.0 && sphere.density > 0.0;
-    Uvec2Array(push.rects).at[i] = valid ? tileRect(sphereBounds(sphere.center, sphere.radius)) : kNoRect;
+    Uvec2Array(push.rects).at[i] =
+        valid ? tileRect(sphereBounds(sphere.center, sphere.radius)) : kNoRect;
 }
