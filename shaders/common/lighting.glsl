@@ -8,8 +8,7 @@
 
 // Irradiance on a plane facing light `index` at `position`, shadowed; `travel`: direction of the
 // light there.
-vec3 lightIrradiance(uint index, vec3 position, out vec3 travel) {
-    LightData light = lights[index];
+vec3 lightIrradiance(LightData light, uint index, vec3 position, out vec3 travel) {
     if (light.type == kLightDirectional) {
         travel = light.direction;
         return light.color * transmittance(index, position);
@@ -33,7 +32,7 @@ vec3 scatteredRadiance(MediumData medium, vec3 position, vec3 rayDirection) {
     vec3 sum = frame.ambient;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec3 travel;
-        vec3 irradiance = lightIrradiance(i, position, travel);
+        vec3 irradiance = lightIrradiance(lights[i], i, position, travel);
         sum += irradiance * phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
     }
     return sum;
@@ -44,7 +43,7 @@ vec3 diffuseRadiance(vec3 position, vec3 normal) {
     vec3 sum = frame.ambient;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec3 travel;
-        vec3 irradiance = lightIrradiance(i, position, travel);
+        vec3 irradiance = lightIrradiance(lights[i], i, position, travel);
         sum += irradiance * (max(-dot(travel, normal), 0.0) * 0.3183098861837907);
     }
     return sum;

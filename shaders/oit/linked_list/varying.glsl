@@ -22,54 +22,132 @@ struct Nodes {
     vec3 source[3];
 };
 
-void addToNodes(inout Nodes nodes, MediumData medium, vec3 tint, vec3 densities, vec3 t,
-                vec3 constantLight) {
-    for (int k = 0; k < 3; ++k) {
-        vec3 light = kVaryingLight ? scatteredRadiance(medium, ray.origin + ray.direction * t[k],
-                                                       ray.direction)
-                                   : constantLight;
-        vec3 extinction = medium.extinction * densities[k];
-        nodes.extinction[k] += extinction;
-        nodes.source[k] +=
-            tint * (extinction * medium.albedo * light + medium.emission * densities[k]);
+// The open media live in list[0 .. count), boxes first, each as (bits of its end, kind and index):
+// the entries there are used up. Boxes and spheres are visited by loops of their own, because on
+// some devices a branch that is not taken costs as much as one that is.
+struct OpenSet {
+    uint count;
+    uint boxes;
+};
+
+void openMedium(inout OpenSet open, uvec2 entry, bool isBox) {
+    if (kBoxes && isBox) {
+        if (open.boxes < open.count) storeEntry(open.count, loadEntry(open.boxes));
+        storeEntry(open.boxes, entry);
+        ++open.boxes;
+    } else {
+        storeEntry(open.count, entry);
+    }
+    ++open.count;
+}
+
+void closeMedium(inout OpenSet open, uint index) {
+    uint hole = index;
+    if (kBoxes && index < open.boxes) {
+        --open.boxes;
+        storeEntry(hole, loadEntry(open.boxes));
+        hole = open.boxes;
+    }
+    --open.count;
+    storeEntry(hole, loadEntry(open.count));
+}
+
+// Media are gathered in groups of this many: each light and medium is then loaded once per step
+// and not once per open interval.
+const uint kGroup = 4u;
+
+struct Gathered {
+    vec3 density[kGroup];     // at the three nodes, summed over the open intervals of a medium
+    vec3 tinted[kGroup * 3];  // the same times their tints, 3 * medium + node
+};
+
+void addToGroup(inout Gathered sum, uint base, uint medium, vec3 densities, vec3 tint) {
+    for (uint g = 0u; g < kGroup; ++g) {
+        float own = medium == base + g ? 1.0 : 0.0;
+        sum.density[g] += own * densities;
+        for (uint k = 0u; k < 3u; ++k) sum.tinted[3u * g + k] += (own * densities[k]) * tint;
+    }
+}
+
+Gathered gatherOpen(OpenSet open, uint base, vec3 t) {
+    Gathered sum;
+    for (uint g = 0u; g < kGroup; ++g) sum.density[g] = vec3(0);
+    for (uint g = 0u; g < kGroup * 3u; ++g) sum.tinted[g] = vec3(0);
+    if (kBoxes)
+        for (uint i = 0u; i < open.boxes; ++i) {
+            BoxData box = boxes[loadEntry(i).y & kIndexMask];
+            VolumeData volume = volumes[box.volume];
+            addToGroup(sum, base, volume.medium, boxDensities(box, localRay(ray, box, volume), t),
+                       vec3(1));
+        }
+    for (uint i = kBoxes ? open.boxes : 0u; i < open.count; ++i) {
+        SphereData sphere = spheres[loadEntry(i).y & kIndexMask];
+        addToGroup(sum, base, sphere.medium, sphereDensities(ray, sphere, t), sphere.tint);
+    }
+    return sum;
+}
+
+// Radiance that the media of a group scatter towards the eye per unit of optical depth and albedo,
+// at the three nodes: 3 * medium + node; and what an isotropic medium would.
+struct Scattered {
+    vec3 group[kGroup * 3];
+    vec3 isotropic[3];
+};
+
+Scattered scatterGroup(uint base, vec3 t) {
+    Scattered scattered;
+    uint phases[kGroup];
+    float cosines[kGroup];
+    for (uint g = 0u; g < kGroup; ++g) {
+        phases[g] = media[min(base + g, max(frame.mediumCount, 1u) - 1u)].phase;
+        cosines[g] = media[min(base + g, max(frame.mediumCount, 1u) - 1u)].g;
+    }
+    for (uint g = 0u; g < kGroup * 3u; ++g) scattered.group[g] = frame.ambient;
+    for (uint k = 0u; k < 3u; ++k) scattered.isotropic[k] = frame.ambient;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        LightData light = lights[i];
+        vec3 irradiance, travel;
+        for (uint k = 0u; k < 3u; ++k) {
+            // Directional light is the same at all nodes.
+            if (kVaryingLight || k == 0u)
+                irradiance = lightIrradiance(light, i, ray.origin + ray.direction * t[k], travel);
+            float cosTheta = -dot(travel, ray.direction);
+            scattered.isotropic[k] += irradiance * phaseIsotropic();
+            for (uint g = 0u; g < kGroup; ++g)
+                scattered.group[3u * g + k] +=
+                    irradiance * phaseFunction(phases[g], cosines[g], cosTheta);
+        }
+    }
+    return scattered;
+}
+
+void addGroup(inout Nodes nodes, uint base, Gathered sum, Scattered scattered) {
+    for (uint g = 0u; g < kGroup; ++g) {
+        MediumData medium = media[min(base + g, max(frame.mediumCount, 1u) - 1u)];
+        vec3 scattering = medium.extinction * medium.albedo;
+        for (int k = 0; k < 3; ++k) {
+            nodes.extinction[k] += medium.extinction * sum.density[g][k];
+            nodes.source[k] += sum.tinted[3u * g + k] *
+                               (scattering * scattered.group[3u * g + k] + medium.emission);
+        }
     }
 }
 
 // Extinction and source of everything that is open, at three distances.
-Nodes evaluateNodes(uint openCount, Solids solids, vec3 t) {
+Nodes evaluateNodes(OpenSet open, Solids solids, vec3 t) {
     Nodes nodes;
-    MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
+    Scattered scattered = scatterGroup(0u, min(t, vec3(1e6)));
     for (int k = 0; k < 3; ++k) {
-        nodes.extinction[k] = vec3(0);
-        nodes.source[k] = vec3(0);
+        nodes.extinction[k] = nodes.source[k] = vec3(0);
         if (kSurfaces) {
-            vec3 scattering = solids.scatteringHi + solids.scatteringLo;
             nodes.extinction[k] = solids.extinctionHi + solids.extinctionLo;
-            nodes.source[k] =
-                scattering * scatteredRadiance(isotropic,
-                                               ray.origin + ray.direction * min(t[k], 1e6),
-                                               ray.direction);
+            nodes.source[k] = (solids.scatteringHi + solids.scatteringLo) * scattered.isotropic[k];
         }
     }
-    for (uint i = 0u; i < openCount; ++i) {
-        uvec2 entry = loadEntry(i);
-        uint index = entry.y & kIndexMask;
-        vec3 densities, tint = vec3(1);
-        uint mediumIndex;
-        if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
-            BoxData box = boxes[index];
-            VolumeData volume = volumes[box.volume];
-            densities = boxDensities(box, localRay(ray, box, volume), t);
-            mediumIndex = volume.medium;
-        } else {
-            SphereData sphere = spheres[index];
-            densities = sphereDensities(ray, sphere, t);
-            mediumIndex = sphere.medium;
-            tint = sphere.tint;
-        }
-        MediumData medium = media[mediumIndex];
-        vec3 light = kVaryingLight ? vec3(0) : scatteredRadiance(medium, vec3(0), ray.direction);
-        addToNodes(nodes, medium, tint, densities, t, light);
+    if (frame.mediumCount > 0u) {
+        addGroup(nodes, 0u, gatherOpen(open, 0u, t), scattered);
+        for (uint base = kGroup; base < frame.mediumCount; base += kGroup)
+            addGroup(nodes, base, gatherOpen(open, base, t), scatterGroup(base, t));
     }
     return nodes;
 }
@@ -130,10 +208,22 @@ bool crossVarying(inout Path path, Nodes nodes, float distance) {
     return true;
 }
 
+// The entry and exit of the medium that an entry stands for.
+vec2 intersectMedium(uvec2 entry, bool isBox) {
+    vec2 t;
+    uint index = entry.y & kIndexMask;
+    if (kBoxes && isBox) {
+        LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume]);
+        intersectBox(local.origin, local.direction, boxes[index].size, t);
+    } else {
+        intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);
+    }
+    return t;
+}
+
 void resolveVarying(inout Path path, Solids solids, float limit) {
-    // The open media live in list[0 .. openCount), unordered, as (bits of their end, kind and
-    // index): the entries there are used up.
-    uint openCount = 0u, next = 0u;
+    OpenSet open = OpenSet(0u, 0u);
+    uint next = 0u;
     float position = 0.0, stepLimit = kFar;
     while (iterations < kMaxIterations) {
         ++iterations;
@@ -141,26 +231,26 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
         float enter = next < count ? uintBitsToFloat(entry.x) : kFar;
         float leave = kFar, plane = kFar;
         uint leaving = 0u;
-        for (uint i = 0u; i < openCount; ++i) {
-            uvec2 open = loadEntry(i);
-            float end = uintBitsToFloat(open.x);
+        for (uint i = 0u; i < open.count; ++i) {
+            float end = uintBitsToFloat(loadEntry(i).x);
             if (end < leave) leave = end, leaving = i;
-            if (kBoxes && (open.y >> kKindShift) == kKindBox) {
-                BoxData box = boxes[open.y & kIndexMask];
+        }
+        if (kBoxes)
+            for (uint i = 0u; i < open.boxes; ++i) {
+                BoxData box = boxes[loadEntry(i).y & kIndexMask];
                 plane =
                     min(plane, nextPlane(box, localRay(ray, box, volumes[box.volume]), position));
             }
-        }
-        iterations += 2u * openCount;
+        iterations += 2u * open.count;
         float event = max(min(min(enter, leave), limit), position);
         float target = max(min(event, plane), position);
-        if (openCount > 0u || solids.count > 0) {
+        if (open.count > 0u || solids.count > 0) {
             if (kVaryingLight) target = min(target, position + limitStepByLights(position));
             target = min(target, position + stepLimit);
         }
         float distance = target - position;
         if (distance > 0.0) {
-            Nodes nodes = evaluateNodes(openCount, solids, position + distance * kNodes);
+            Nodes nodes = evaluateNodes(open, solids, position + distance * kNodes);
             if (!crossVarying(path, nodes, distance)) {
                 stepLimit = distance * 0.4;
                 continue;
@@ -179,22 +269,13 @@ void resolveVarying(inout Path path, Solids solids, float limit) {
                 else
                     crossSolid(solids, record);
             } else {
-                vec2 t;
-                uint index = entry.y & kIndexMask;
-                if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
-                    LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume]);
-                    intersectBox(local.origin, local.direction, boxes[index].size, t);
-                } else {
-                    intersectSphere(ray.origin, ray.direction, spheres[index].center,
-                                    spheres[index].radius, t);
-                }
-                storeEntry(openCount, uvec2(floatBitsToUint(t.y), entry.y));
-                ++openCount;
+                bool isBox = (entry.y >> kKindShift) == kKindBox;
+                openMedium(open, uvec2(floatBitsToUint(intersectMedium(entry, isBox).y), entry.y),
+                           isBox);
             }
             ++next;
         } else {
-            --openCount;
-            storeEntry(leaving, loadEntry(openCount));
+            closeMedium(open, leaving);
         }
     }
 }
