@@ -2,6 +2,7 @@
 #include <reference/lighting.hpp>
 
 #include <core/phase.hpp>
+#include <reference/roots.hpp>
 
 #include <algorithm>
 
@@ -30,15 +31,6 @@ double evaluatePhase(scene::PhaseType type, double g, double cosTheta) {
             break;
     }
     return phaseHenyeyGreenstein(cosTheta, g);
-}
-
-/// Real roots of a t^2 + 2 b t + c.
-void appendRoots(double a, double b, double c, std::vector<double>& roots) {
-    const double discriminant = b * b - a * c;
-    if (discriminant < 0) return;
-    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-    if (a != 0) roots.push_back(q / a);
-    if (q != 0) roots.push_back(c / q);
 }
 
 }  // namespace
@@ -118,18 +110,19 @@ dvec3 Lighting::illuminate(const SurfacePoint& point) const {
 
 void Lighting::collectBreaks(const scene::Ray& ray, std::vector<double>& breaks) const {
     for (const scene::Light& light : mLights) {
+        if (castsShadows(light)) mOcclusion.collectShadowEdges(ray, light, breaks);
         if (light.type == scene::LightType::Directional) continue;
         const dvec3 o = ray.origin - light.position;
-        const double closest = -glm::dot(o, ray.direction);
+        const double closest = -glm::dot(o, ray.direction), o2 = glm::dot(o, o);
         breaks.push_back(closest);
-        appendRoots(1, -closest, glm::dot(o, o) - light.radius * light.radius, breaks);
+        appendRoots(1, -closest, o2 - light.radius * light.radius, breaks);
         if (light.type != scene::LightType::Spot) continue;
-        const double oa = glm::dot(o, light.direction),
-                     da = glm::dot(ray.direction, light.direction);
+        // The cones |o + t d| cos = (o + t d) . axis.
+        const double oa = glm::dot(o, light.direction);
+        const double da = glm::dot(ray.direction, light.direction);
         for (const double angle : {light.innerAngle, light.outerAngle}) {
             const double c2 = std::cos(angle) * std::cos(angle);
-            appendRoots(da * da - c2, oa * da + c2 * closest, oa * oa - c2 * glm::dot(o, o),
-                        breaks);
+            appendRoots(da * da - c2, oa * da + c2 * closest, oa * oa - c2 * o2, breaks);
         }
     }
 }

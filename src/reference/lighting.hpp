@@ -31,7 +31,8 @@ class Lighting {
     /// Ambient radiance + sum over lights of E * T * cos / pi.
     dvec3 illuminate(const SurfacePoint& point) const;
 
-    /// Appends the distances along a ray at which unshadowed light is not smooth or has its peak.
+    /// Appends the distances along a ray at which light is not smooth or has its peak; edges of
+    /// shadows only while few things cast them.
     void collectBreaks(const scene::Ray& ray, std::vector<double>& breaks) const;
 
   private:

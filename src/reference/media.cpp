@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <core/error.hpp>
 #include <reference/media.hpp>
+#include <reference/roots.hpp>
 
 #include <fmt/format.h>
 
@@ -147,6 +148,29 @@ dvec3 MediaSet::opticalDepth(const scene::Ray& ray, double tMax) const {
         depth += mSources[grid.source].extinction *
                  std::max(0.0, grid.field->opticalDepth(toIndexSpace(grid, ray), 0, tMax));
     return depth;
+}
+
+void MediaSet::collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                                  std::vector<double>& distances) const {
+    for (const SphereShape& sphere : mSpheres) {
+        const double r2 = sphere.radius * sphere.radius;
+        if (light.type == scene::LightType::Directional) {
+            // The distance of the centre from the line through the point along the light is R.
+            const dvec3 o = glm::cross(ray.origin - sphere.center, light.direction);
+            const dvec3 d = glm::cross(ray.direction, light.direction);
+            appendRoots(glm::dot(d, d), glm::dot(o, d), glm::dot(o, o) - r2, distances);
+        } else {
+            // |(p - l) x (c - l)|^2 = R^2 |p - l|^2 for the line through the light l and the point
+            // p.
+            const dvec3 fromLight = ray.origin - light.position;
+            const dvec3 toCenter = sphere.center - light.position;
+            const dvec3 o = glm::cross(fromLight, toCenter);
+            const dvec3 d = glm::cross(ray.direction, toCenter);
+            appendRoots(glm::dot(d, d) - r2,
+                        glm::dot(o, d) - r2 * glm::dot(fromLight, ray.direction),
+                        glm::dot(o, o) - r2 * glm::dot(fromLight, fromLight), distances);
+        }
+    }
 }
 
 }  // namespace brume::reference

@@ -95,6 +95,12 @@ class MediaSet {
     /// Optical depth of spheres and grids in [0, tMax].
     dvec3 opticalDepth(const scene::Ray& ray, double tMax) const;
 
+    std::size_t sphereCount() const { return mSpheres.size(); }
+    /// Appends where a ray enters and leaves the shadows of the spheres (and of their mirror
+    /// images).
+    void collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                            std::vector<double>& distances) const;
+
   private:
     struct SphereShape {
         dvec3 center;

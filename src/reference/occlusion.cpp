@@ -6,6 +6,12 @@
 #include <algorithm>
 
 namespace brume::reference {
+namespace {
+
+/// Beyond it the edges are left to the halving of panels.
+constexpr std::size_t kMaxShadowEdgeCasters = 64;
+
+}  // namespace
 
 dvec3 Occlusion::transmittance(const scene::Ray& ray, double tMin, double tMax,
                                std::uint32_t except) const {
@@ -67,6 +73,14 @@ void Occlusion::collectSolid(std::span<const Hit> hits, std::uint32_t mesh, doub
         last = hit.t;
     }
     open(last, kEndOfRay);
+}
+
+void Occlusion::collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                                   std::vector<double>& distances) const {
+    if (mMedia.sphereCount() <= kMaxShadowEdgeCasters)
+        mMedia.collectShadowEdges(ray, light, distances);
+    if (mTriangles.count() <= kMaxShadowEdgeCasters)
+        mTriangles.collectShadowEdges(ray, light, distances);
 }
 
 }  // namespace brume::reference

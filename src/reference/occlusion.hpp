@@ -27,6 +27,11 @@ class Occlusion {
     /// the whole ray, sorted.
     void collectSolids(std::span<const Hit> hits, double tMax, std::vector<Piece>& pieces) const;
 
+    /// Appends the distances along a ray at which the shadows of spheres and triangles begin or
+    /// end, unless there are too many of them.
+    void collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                            std::vector<double>& distances) const;
+
   private:
     void collectSolid(std::span<const Hit> hits, std::uint32_t mesh, double tMax,
                       std::vector<Piece>& pieces) const;

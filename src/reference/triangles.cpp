@@ -150,6 +150,19 @@ void TriangleSet::collectTransparent(const scene::Ray& ray, double tMin, std::ui
     });
 }
 
+void TriangleSet::collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                                     std::vector<double>& distances) const {
+    for (const Triangle& triangle : mTriangles)
+        for (int corner = 0; corner < 3; ++corner) {
+            const dvec3 a = triangle.positions[corner], b = triangle.positions[(corner + 1) % 3];
+            const bool isParallel = light.type == scene::LightType::Directional;
+            const dvec3 toLight = isParallel ? light.direction : a - light.position;
+            const dvec3 normal = glm::cross(b - a, toLight);
+            const double slope = glm::dot(normal, ray.direction);
+            if (slope != 0) distances.push_back(glm::dot(normal, a - ray.origin) / slope);
+        }
+}
+
 std::uint32_t TriangleSet::hash(std::uint32_t triangle) const {
     return shader::triangleHash(mTriangles[triangle].mesh, mTriangles[triangle].index);
 }

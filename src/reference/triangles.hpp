@@ -52,6 +52,11 @@ class TriangleSet {
     void collectTransparent(const scene::Ray& ray, double tMin, std::uint32_t except,
                             std::vector<Hit>& hits) const;
 
+    std::size_t count() const { return mTriangles.size(); }
+    /// Appends where a ray passes the planes through the light and an edge of a triangle.
+    void collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
+                            std::vector<double>& distances) const;
+
     SurfacePoint describe(const scene::Ray& ray, const Hit& hit) const;
     const scene::Material& material(std::uint32_t triangle) const {
         return *mTriangles[triangle].material;

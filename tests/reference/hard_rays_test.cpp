@@ -248,5 +248,42 @@ TEST(ReferenceHardRay, BricksMixedWithSpheres_AgreeWithBruteForce) {
     EXPECT_NEAR(r.transmittance.x, static_cast<double>(truth.transmittance), kAccuracy);
 }
 
+TEST(ReferenceHardRay, ShadowsInBricksAndSpheres_AgreeWithFineSteps) {
+    TestScene s;
+    const std::uint32_t fog = s.addMedium(dvec3(0.05), dvec3(1));
+    const std::uint32_t smoke = s.addMedium(dvec3(2), dvec3(0.9));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit;
+    std::vector<float> values(9 * 9 * 9);
+    for (float& value : values) value = unit(random);
+    fillBricks(s.addGrid(smoke, glm::translate(dmat4(1), dvec3(-4, 1, 2))), 1,
+               [&](const ivec3& i) { return values[(i.z * 9 + i.y) * 9 + i.x]; });
+    s.addBox(fog, dvec3(-20, -20, 0), dvec3(20, 20, 12));
+    // Small and dense: shadows far narrower than a panel.
+    s.addSphere(smoke, dvec3(0, 3, 1.234), 0.02, scene::Profile::Constant, 100);
+    s.addSphere(smoke, dvec3(0.01, -2, 7.77), 0.05, scene::Profile::Smooth, 100);
+    s.addLight(scene::LightType::Directional, dvec3(3), true).direction =
+        glm::normalize(dvec3(0.02, -1, 0.1));
+    scene::Light& spot = s.addLight(scene::LightType::Spot, dvec3(40), true);
+    spot.position = dvec3(0, -4, 7.5), spot.direction = dvec3(0, 1, 0);
+    spot.innerAngle = 0.3, spot.outerAngle = 0.9;
+    const Tracer tracer = s.tracer();
+    const scene::Ray ray{dvec3(0), dvec3(0, 0, 1)};
+    constexpr int kSteps = 60000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = 12.0 * (i + 0.5) / kSteps;
+        const dvec3 p(0, 0, t), fromSpot = p - spot.position;
+        const double distance2 = glm::dot(fromSpot, fromSpot);
+        const double cosine = fromSpot.y / std::sqrt(distance2);
+        const double ramp =
+            std::clamp((cosine - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9)), 0.0, 1.0);
+        const double sun = 3 * tracer.transmittance(p, p - 100.0 * s.scene.lights[0].direction).x;
+        const double lamp = 40 * ramp * ramp / distance2 * tracer.transmittance(p, spot.position).x;
+        sum += 0.05 * (sun + lamp) * std::exp(-0.05 * t) * (12.0 / kSteps) / (4 * kPi);
+    }
+    EXPECT_NEAR(tracer.integrateRay(ray).radiance.x, sum, 1e-6);
+}
+
 }  // namespace
 }  // namespace brume::reference
