@@ -16,7 +16,8 @@ constexpr int kTopLevel = 31;
 
 /// Of the density over an octree node.
 struct Stats {
-    double lo = 0, hi = 0;
+    double lo = 0, hi = 0;          ///< least and greatest density
+    double loMean = 0, hiMean = 0;  ///< least and greatest mean of a cell
     double mean = 0;
 };
 
@@ -30,10 +31,13 @@ struct CoordLess {
 using Level = std::map<ivec3, Stats, CoordLess>;
 
 Stats combine(const Stats* children) {
-    Stats sum{children[0].lo, children[0].hi, 0};
+    Stats sum = children[0];
+    sum.mean = 0;
     for (int i = 0; i < 8; ++i) {
         sum.lo = std::min(sum.lo, children[i].lo);
         sum.hi = std::max(sum.hi, children[i].hi);
+        sum.loMean = std::min(sum.loMean, children[i].loMean);
+        sum.hiMean = std::max(sum.hiMean, children[i].hiMean);
         sum.mean += children[i].mean / 8;
     }
     return sum;
@@ -73,9 +77,11 @@ class BrickPyramid {
             const int at =
                 ((k + (c >> 2)) * kBrickValues + j + ((c >> 1) & 1)) * kBrickValues + i + (c & 1);
             const double v = values[at];
-            corners[c] = {v, v, v};
+            corners[c] = {v, v, v, v, v};
         }
-        return combine(corners);
+        Stats cell = combine(corners);
+        cell.loMean = cell.hiMean = cell.mean;
+        return cell;
     }
 
     std::array<std::array<Stats, kBrickCells * kBrickCells * kBrickCells>, kBrickLevel + 1> mStats;
@@ -134,7 +140,7 @@ class Decomposer {
   private:
     bool isFine(const Stats& stats, int level) const {
         const double edge = mEdge * std::ldexp(1.0, level);
-        return (stats.hi - stats.lo) * mExtinction * edge <= mTolerance;
+        return (stats.hiMean - stats.loMean) * mExtinction * edge <= mTolerance;
     }
 
     void emit(const ivec3& node, int level, const Stats& stats) {
