@@ -15,7 +15,6 @@ struct VertexData {
 struct MeshData {
     mat4x3 relativeFromObject;  // to metres relative to the camera
     mat3 normalFromObject;
-    float orientation;  // -1 if the transform mirrors
     uint firstVertex;
     uint firstIndex;
     uint material;
@@ -54,8 +53,8 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::VertexData) == 32);
-static_assert(sizeof(brume::shader::MeshData) == 100);
-static_assert(offsetof(brume::shader::MeshData, orientation) == 84);
+static_assert(sizeof(brume::shader::MeshData) == 96);
+static_assert(offsetof(brume::shader::MeshData, firstVertex) == 84);
 static_assert(sizeof(brume::shader::MaterialData) == 84);
 #endif
 #endif

@@ -29,7 +29,7 @@ void main() {
     for (uint i = 0u; i < 3u; ++i) corners[i] = relativePosition(mesh, triangle * 3u + i);
     vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
     float area = length(across);
-    plane.xyz = area > 0.0 ? across * (mesh.orientation / area) : vec3(0);
+    plane.xyz = area > 0.0 ? across / area : vec3(0);
     plane.w = dot(plane.xyz, corners[0]);
     VertexData vertex = vertices[mesh.firstVertex + indices[mesh.firstIndex + gl_VertexIndex]];
     normal = mesh.normalFromObject * vertex.normal;

@@ -52,12 +52,11 @@ TriangleSet::TriangleSet(const scene::Scene& scene) : mScene(scene) {
     std::vector<Box3> opaqueBoxes, transparentBoxes;
     for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
         const scene::Mesh& mesh = scene.meshes[m];
-        const dmat3 linear(mesh.worldFromObject);
-        mNormalMatrices.push_back(glm::transpose(glm::inverse(linear)));
+        mNormalMatrices.push_back(glm::transpose(glm::inverse(dmat3(mesh.worldFromObject))));
         const scene::Material& material = scene.materials[mesh.material];
         const bool isOpaque = material.type == scene::MaterialType::Opaque;
         for (std::uint32_t i = 0; 3 * i + 2 < mesh.indices.size(); ++i) {
-            Triangle triangle{{}, m, i, &material, glm::determinant(linear) < 0};
+            Triangle triangle{{}, m, i, &material};
             Box3 box;
             for (int corner = 0; corner < 3; ++corner) {
                 const dvec3 position(mesh.positions[mesh.indices[3 * i + corner]]);
@@ -94,7 +93,7 @@ bool TriangleSet::intersect(const Shear& shear, std::uint32_t index, double tMin
         return false;
     const double t = (u * a.z + v * b.z + w * c.z) / determinant;
     if (!(t >= tMin && t < tMax)) return false;
-    hit = {t, index, v / determinant, w / determinant, (determinant < 0) == triangle.isMirrored};
+    hit = {t, index, v / determinant, w / determinant, determinant > 0};
     return true;
 }
 

@@ -72,7 +72,6 @@ class TriangleSet {
         dvec3 positions[3];  ///< world
         std::uint32_t mesh = 0, index = 0;
         const scene::Material* material = nullptr;
-        bool isMirrored = false;  ///< the transform turns the winding round
     };
     struct Shear;
 

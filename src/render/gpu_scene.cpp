@@ -283,7 +283,6 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
         meshes.push_back(
             {.relativeFromObject = relativeFrom(mesh.worldFromObject, mCamera.position),
              .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
-             .orientation = glm::determinant(linear) < 0 ? -1.0f : 1.0f,
              .firstVertex = static_cast<std::uint32_t>(vertices.size()),
              .firstIndex = static_cast<std::uint32_t>(indices.size()),
              .material = mesh.material});
