@@ -12,7 +12,8 @@ float phaseRayleigh(float cosTheta) { return 0.05968310365946075 * (1.0 + cosThe
 
 // cosTheta between the directions in which the light travels before and after; |g| <= 0.999.
 float phaseHenyeyGreenstein(float cosTheta, float g) {
-    float a = 1.0 + g * g - 2.0 * g * cosTheta;
+    // 1 + g^2 - 2 g cosTheta, without its cancellation near g = 1.
+    float a = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cosTheta);
     return kInverse4Pi * (1.0 - g * g) / (a * sqrt(a));
 }
 
