@@ -105,7 +105,7 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
       mBins(device, "oit.linked_list", inputs),
       mPrefixSum(device) {
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
-    const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes};
+    const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces};
     const auto mediaAnd = [](std::vector<gpu::Binding> more) {
         return join(mediaBindings(), more);
     };
@@ -195,7 +195,8 @@ void LinkedList::allocateForBands() {
     const std::uint32_t pixels = largest.tileCount * kTilePixels;
     mOffsets = makeBuffer(*mDevice, "offsets", 4ull * (pixels + 1));
     mSums = makeBuffer(*mDevice, "sums", 4ull * gpu::PrefixSum::sumCount(pixels + 1));
-    mSurfaceCounts = makeBuffer(*mDevice, "surface_counts", mNeeds.surfaces ? 4ull * pixels : 0);
+    mSurfaceOffsets =
+        makeBuffer(*mDevice, "surface_offsets", mNeeds.surfaces ? 4ull * (pixels + 1) : 0);
     mSurfaceCursors = makeBuffer(*mDevice, "surface_cursors", mNeeds.surfaces ? 4ull * pixels : 0);
     mEntries = makeBuffer(*mDevice, "entries", largest.entryCount * kEntryBytes);
     mRecords = makeBuffer(*mDevice, "records", largest.recordCount * sizeof(shader::SurfaceRecord));
@@ -209,7 +210,7 @@ shader::ListPush LinkedList::makePush(const Band& band) const {
             .tileCount = band.tileCount,
             .entries = mEntries.deviceAddress(),
             .offsets = mOffsets.deviceAddress(),
-            .surfaceCounts = mSurfaceCounts.deviceAddress(),
+            .surfaceOffsets = mSurfaceOffsets.deviceAddress(),
             .surfaceCursors = mSurfaceCursors.deviceAddress(),
             .records = mRecords.deviceAddress(),
             .sphereOffsets = mBins.spheres().offsets,
@@ -224,7 +225,7 @@ void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
     frame::PassBuilder& pass = frame.addPass(fmt::format("oit.linked_list.surface_{}", stage));
     pass.reads(inputs.opaqueT, Access::FragmentSample);
     for (const gpu::Buffer* buffer :
-         {&mOffsets, &mSurfaceCounts, &mSurfaceCursors, &mCounters, &mEntries, &mRecords})
+         {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mCounters, &mEntries, &mRecords})
         pass.readsWrites(frame.importBuffer(*buffer), Access::FragmentWrite);
     pass.renderArea(inputs.extent);
     pass.record([this, inputs, band, &pipeline](gpu::Commands& commands,
@@ -242,25 +243,37 @@ void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
     });
 }
 
-void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
-    frame::PassBuilder& pass = frame.addPass("oit.linked_list.count");
-    mBins.declareReads(frame, pass);
-    pass.reads(inputs.opaqueT, Access::ComputeSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceCounts, &mSurfaceCursors, &mCounters})
+void LinkedList::declareClear(frame::FrameBuilder& frame, const Band& band) {
+    frame::PassBuilder& pass = frame.addPass("oit.linked_list.clear");
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mCounters})
         pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
-    pass.writes(frame.importBuffer(mOffsets), Access::ComputeWrite);
-    pass.record([this, inputs, band](gpu::Commands& commands,
-                                     const frame::PassResources& resources) {
+    pass.record([this, isFirst = band.firstTile == 0](gpu::Commands& commands,
+                                                      const frame::PassResources&) {
         commands.fillBuffer(mOffsets, 0);
         if (mNeeds.surfaces) {
-            commands.fillBuffer(mSurfaceCounts, 0);
+            commands.fillBuffer(mSurfaceOffsets, 0);
             commands.fillBuffer(mSurfaceCursors, 0);
         }
-        // `records` starts anew in each band, `exhausted` counts over all of them.
-        const bool isFirst = band.firstTile == 0;
-        commands.fillBuffer(mCounters, 0, 0, isFirst ? sizeof(shader::ListCounters) : 4);
-        commands.computeTransferBarrier();
-        commands.bindCompute(mCount);
+        if (isFirst) commands.fillBuffer(mCounters, 0);
+    });
+}
+
+void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
+    declareClear(frame, band);
+    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "count", mSurfaceCount);
+    frame::PassBuilder& pass = frame.addPass("oit.linked_list.count");
+    pass.reads(frame.importBuffer(mSurfaceOffsets), Access::ComputeRead);
+    pass.writes(frame.importBuffer(mOffsets), Access::ComputeWrite);
+    declareMedia(frame, inputs, band, pass, mCount);
+}
+
+void LinkedList::declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+                              frame::PassBuilder& pass, const gpu::ComputePipeline& pipeline) {
+    mBins.declareReads(frame, pass);
+    pass.reads(inputs.opaqueT, Access::ComputeSample);
+    pass.record([this, inputs, band, &pipeline](gpu::Commands& commands,
+                                                const frame::PassResources& resources) {
+        commands.bindCompute(pipeline);
         bindFrame(commands, inputs);
         bindMedia(commands, inputs, mBins.sortedSpheres());
         commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
@@ -268,12 +281,11 @@ void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, 
         commands.pushConstants(makePush(band));
         commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize, kTilePixels);
     });
-    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "count", mSurfaceCount);
 }
 
 void LinkedList::declareTotals(frame::FrameBuilder& frame, const Inputs& inputs) {
     frame::PassBuilder& pass = frame.addPass("oit.linked_list.totals");
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceCounts})
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     pass.writes(frame.importBuffer(mTileTotals), Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources&) {
@@ -288,36 +300,36 @@ void LinkedList::declareTotals(frame::FrameBuilder& frame, const Inputs& inputs)
                       mTileTotalsRead);
 }
 
-void LinkedList::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
-    frame::PassBuilder& pass = frame.addPass("oit.linked_list.store");
-    mBins.declareReads(frame, pass);
-    pass.reads(inputs.opaqueT, Access::ComputeSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSums, &mEntries})
+void LinkedList::declareScan(frame::FrameBuilder& frame, const Band& band) {
+    const std::uint32_t count = band.tileCount * kTilePixels + 1;
+    frame::PassBuilder& pass = frame.addPass("oit.linked_list.scan");
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mSums})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
-    pass.record([this, inputs, band](gpu::Commands& commands,
-                                     const frame::PassResources& resources) {
-        mPrefixSum.record(commands, mOffsets.deviceAddress(), band.tileCount * kTilePixels + 1,
-                          mSums.deviceAddress());
-        commands.computeBarrier();
-        commands.bindCompute(mStore);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres());
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
-                      *inputs.texelSampler);
-        commands.pushConstants(makePush(band));
-        commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize, kTilePixels);
+    pass.record([this, count](gpu::Commands& commands, const frame::PassResources&) {
+        if (mNeeds.surfaces) {
+            mPrefixSum.record(commands, mSurfaceOffsets.deviceAddress(), count,
+                              mSums.deviceAddress());
+            commands.computeBarrier();
+        }
+        mPrefixSum.record(commands, mOffsets.deviceAddress(), count, mSums.deviceAddress());
     });
-    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
     // What the band's lists really hold, against what they were planned for.
     const std::uint64_t index = static_cast<std::uint64_t>(&band - mBands.data());
     frame.addPass("oit.linked_list.band_total")
         .reads(frame.importBuffer(mSums), Access::TransferRead)
         .writes(frame.importBuffer(mBandTotals), Access::TransferWrite)
-        .record([this, index, pixels = band.tileCount * kTilePixels](gpu::Commands& commands,
-                                                                     const frame::PassResources&) {
-            commands.copyBuffer(mSums, mBandTotals, 4,
-                                4ull * gpu::PrefixSum::totalIndex(pixels + 1), 4 * index);
+        .record([this, index, count](gpu::Commands& commands, const frame::PassResources&) {
+            commands.copyBuffer(mSums, mBandTotals, 4, 4ull * gpu::PrefixSum::totalIndex(count),
+                                4 * index);
         });
+}
+
+void LinkedList::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
+    frame::PassBuilder& pass = frame.addPass("oit.linked_list.store");
+    pass.reads(frame.importBuffer(mOffsets), Access::ComputeRead);
+    pass.writes(frame.importBuffer(mEntries), Access::ComputeWrite);
+    declareMedia(frame, inputs, band, pass, mStore);
+    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
 }
 
 void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
@@ -326,7 +338,7 @@ void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceCounts, &mRecords})
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mRecords})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     for (const gpu::Buffer* buffer : {&mEntries, &mCounters})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
@@ -355,6 +367,7 @@ void LinkedList::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareScatter(frame, inputs);
     for (const Band& band : mBands) {
         declareCount(frame, inputs, band);
+        declareScan(frame, band);
         declareStore(frame, inputs, band);
         declareResolve(frame, inputs, band);
     }
@@ -379,7 +392,7 @@ std::map<std::string, std::uint64_t> LinkedList::counters() {
 std::map<std::string, std::uint64_t> LinkedList::bytes() const {
     return {{"lists", mEntries.bytes() + mRecords.bytes()},
             {"listOffsets",
-             mOffsets.bytes() + mSums.bytes() + mSurfaceCounts.bytes() + mSurfaceCursors.bytes()},
+             mOffsets.bytes() + mSums.bytes() + mSurfaceOffsets.bytes() + mSurfaceCursors.bytes()},
             {"bins", mBins.bytes()}};
 }
 

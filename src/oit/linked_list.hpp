@@ -47,9 +47,13 @@ class LinkedList final : public OitMethod {
 
     void planBands();
     void allocateForBands();
-    /// Passes "count" (and "totals" when planning) over one band.
+    void declareClear(frame::FrameBuilder& frame, const Band& band);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
     void declareTotals(frame::FrameBuilder& frame, const Inputs& inputs);
+    void declareScan(frame::FrameBuilder& frame, const Band& band);
+    /// Completes a pass in which each invocation visits the media of its column of pixels.
+    void declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+                      frame::PassBuilder& pass, const gpu::ComputePipeline& pipeline);
     void declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
     void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
     void declareSurfaces(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
@@ -66,7 +70,7 @@ class LinkedList final : public OitMethod {
     gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
     std::vector<Band> mBands;
     std::uint64_t mSurfacesStored = 0, mLongest = 0;
-    gpu::Buffer mOffsets, mSums, mSurfaceCounts, mSurfaceCursors, mEntries, mRecords;
+    gpu::Buffer mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mEntries, mRecords;
     gpu::Buffer mCounters, mCountersRead, mTileTotals, mTileTotalsRead;
     gpu::Buffer mBandTotals, mBandTotalsRead;
 };

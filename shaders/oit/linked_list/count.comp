@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the medium intervals of each pixel.
+// Counts the medium intervals of each pixel and adds the surfaces counted before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "media.glsl"
@@ -27,6 +27,9 @@ void main() {
                 counts[row] += hitsBox(box, volume, row, t) ? 1u : 0u;
         }
     }
-    for (uint row = 0u; row < kRows; ++row)
-        UintArray(push.offsets).at[firstPixel + row * kTileSize] = counts[row];
+    for (uint row = 0u; row < kRows; ++row) {
+        uint pixel = firstPixel + row * kTileSize;
+        if (kSurfaces) counts[row] += UintArray(push.surfaceOffsets).at[pixel];
+        UintArray(push.offsets).at[pixel] = counts[row];
+    }
 }

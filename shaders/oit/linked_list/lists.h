@@ -9,7 +9,8 @@ BRUME_STRUCTS_BEGIN
 // A list entry is a uvec2: the bits of the distance at which it begins (a float >= 0, so that they
 // sort as an integer), and kind << kKindShift | index. Pixels are numbered tile by tile from the
 // band's first tile, 64 to a tile, row by row; the entries of pixel p are
-// entries[offsets[p] .. offsets[p + 1]), the surfaces last until they are sorted.
+// entries[offsets[p] .. offsets[p + 1]), the surfaces last until they are sorted; its surface
+// records are records[surfaceOffsets[p] .. surfaceOffsets[p + 1]).
 BRUME_CONST uint kKindShift = 30u;
 BRUME_CONST uint kKindSphere = 0u;   // index into the sorted spheres
 BRUME_CONST uint kKindBox = 1u;      // index into the boxes
@@ -22,7 +23,7 @@ struct ListPush {
     uint tileCount;    // in the band
     uint64_t entries;  // uvec2[]
     uint64_t offsets;  // uint[pixels + 1]: counts until they are summed
-    uint64_t surfaceCounts;               // uint[pixels]
+    uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
     uint64_t records;                     // SurfaceRecord[]
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
@@ -45,7 +46,6 @@ BRUME_CONST uint kFaceFront = 1u;  // of a solid: the ray enters
 BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
 
 struct ListCounters {
-    uint records;    // surface records handed out in this band
     uint exhausted;  // pixels that reached kMaxIterations: the image is not exact, the host must
                      // say so
 };

@@ -11,6 +11,7 @@
 layout(local_size_x = 64) in;  // eight tiles
 layout(constant_id = 0) const bool kSpheres = true;
 layout(constant_id = 1) const bool kBoxes = true;
+layout(constant_id = 2) const bool kSurfaces = true;
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };

@@ -67,7 +67,8 @@ void main() {
 
     Solids solids = noSolids();
     if (kSurfaces) {
-        uint surfaceCount = UintArray(push.surfaceCounts).at[index];
+        uint surfaceCount = UintArray(push.surfaceOffsets).at[index + 1u] -
+                            UintArray(push.surfaceOffsets).at[index];
         solids = findSolidsAroundEye(surfaceCount);
         sortSurfaces(surfaceCount);
     }

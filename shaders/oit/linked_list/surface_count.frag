@@ -14,7 +14,5 @@ void main() {
     bool isSeen =
         point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
     if (!isSeen || !isInBand(pixel)) return;
-    uint index = pixelIndex(pixel);
-    atomicAdd(UintArray(push.offsets).at[index], 1u);
-    atomicAdd(UintArray(push.surfaceCounts).at[index], 1u);
+    atomicAdd(UintArray(push.surfaceOffsets).at[pixelIndex(pixel)], 1u);
 }

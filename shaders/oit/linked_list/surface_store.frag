@@ -35,9 +35,9 @@ void main() {
         point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
     if (!isSeen || !isInBand(pixel)) return;
     uint index = pixelIndex(pixel);
-    uint slot = UintArray(push.offsets).at[index + 1u] - 1u -
-                atomicAdd(UintArray(push.surfaceCursors).at[index], 1u);
-    uint recordIndex = atomicAdd(CounterBlock(push.counters).counters.records, 1u);
+    uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[index], 1u);
+    uint slot = UintArray(push.offsets).at[index + 1u] - 1u - arrival;
+    uint recordIndex = UintArray(push.surfaceOffsets).at[index] + arrival;
     RecordArray(push.records).at[recordIndex] = makeRecord(point);
     Uvec2Array(push.entries).at[slot] =
         uvec2(floatBitsToUint(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);

@@ -17,7 +17,7 @@ void main() {
         uint count = UintArray(push.offsets).at[tile * 64u + i];
         totals.entries += count;
         totals.longest = max(totals.longest, count);
-        if (kSurfaces) totals.surfaces += UintArray(push.surfaceCounts).at[tile * 64u + i];
+        if (kSurfaces) totals.surfaces += UintArray(push.surfaceOffsets).at[tile * 64u + i];
     }
     TotalArray(push.counters).at[tile] = totals;
 }
