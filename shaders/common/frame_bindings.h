@@ -6,7 +6,7 @@
 
 BRUME_STRUCTS_BEGIN
 
-BRUME_CONST uint kBindingFrame = 0u;        // FrameData
+BRUME_CONST uint kBindingFrame = 0u;        // FrameData, a uniform block
 BRUME_CONST uint kBindingLights = 1u;       // LightData[]
 BRUME_CONST uint kBindingMedia = 2u;        // MediumData[]
 BRUME_CONST uint kBindingSpheres = 3u;      // SphereData[]

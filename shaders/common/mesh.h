@@ -17,7 +17,6 @@ struct MeshData {
     mat3 normalFromObject;
     uint firstVertex;
     uint firstIndex;
-    uint material;
 };
 
 BRUME_CONST uint kMaterialOpaque = 0u;
@@ -39,11 +38,15 @@ struct MaterialData {
 // Own bindings of every pass that draws meshes.
 BRUME_CONST uint kBindingVertices = 8u;
 BRUME_CONST uint kBindingIndices = 9u;
-BRUME_CONST uint kBindingMeshes = 10u;
-BRUME_CONST uint kBindingMaterials = 11u;
+BRUME_CONST uint kBindingMesh = 10u;      // MeshData of the draw, a uniform block
+BRUME_CONST uint kBindingMaterial = 11u;  // MaterialData of the draw, a uniform block
 BRUME_CONST uint kBindingColorTexture = 12u;
 BRUME_CONST uint kBindingEmissionTexture = 13u;
 BRUME_CONST uint kBindingTriangles = 14u;  // uint[pixels]: sums of triangleHash()
+
+// Bytes from one MeshData or MaterialData to the next: uniform blocks may start at multiples of it
+// on every device.
+BRUME_CONST uint kUniformStride = 256u;
 
 struct MeshPush {
     uint meshIndex;
@@ -53,7 +56,7 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::VertexData) == 32);
-static_assert(sizeof(brume::shader::MeshData) == 96);
+static_assert(sizeof(brume::shader::MeshData) == 92);
 static_assert(offsetof(brume::shader::MeshData, firstVertex) == 84);
 static_assert(sizeof(brume::shader::MaterialData) == 84);
 #endif

@@ -9,24 +9,22 @@
 
 layout(binding = kBindingVertices, scalar) readonly buffer Vertices { VertexData vertices[]; };
 layout(binding = kBindingIndices, scalar) readonly buffer Indices { uint indices[]; };
-layout(binding = kBindingMeshes, scalar) readonly buffer Meshes { MeshData meshes[]; };
-layout(push_constant, scalar) uniform Push { layout(offset = 0) MeshPush push; };
+layout(binding = kBindingMesh, scalar) uniform MeshBlock { MeshData mesh; };
 
 layout(location = 0) out vec3 normal;
 layout(location = 1) out vec2 uv;
 layout(location = 2) flat out vec4 plane;  // unit outward normal, its dot product with a corner
 layout(location = 3) flat out uint triangle;
 
-vec3 relativePosition(MeshData mesh, uint corner) {
+vec3 relativePosition(uint corner) {
     VertexData vertex = vertices[mesh.firstVertex + indices[mesh.firstIndex + corner]];
     return mesh.relativeFromObject * vec4(vertex.position, 1.0);
 }
 
 void main() {
-    MeshData mesh = meshes[push.meshIndex];
     triangle = gl_VertexIndex / 3;
     vec3 corners[3];
-    for (uint i = 0u; i < 3u; ++i) corners[i] = relativePosition(mesh, triangle * 3u + i);
+    for (uint i = 0u; i < 3u; ++i) corners[i] = relativePosition(triangle * 3u + i);
     vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
     float area = length(across);
     plane.xyz = area > 0.0 ? across / area : vec3(0);

@@ -11,8 +11,7 @@ layout(location = 1) in vec2 uv;
 layout(location = 2) flat in vec4 plane;
 layout(location = 3) flat in uint triangle;
 
-layout(binding = kBindingMeshes, scalar) readonly buffer Meshes { MeshData meshes[]; };
-layout(binding = kBindingMaterials, scalar) readonly buffer Materials { MaterialData materials[]; };
+layout(binding = kBindingMaterial, scalar) uniform MaterialBlock { MaterialData material; };
 layout(binding = kBindingColorTexture) uniform sampler2D colorTexture;
 layout(binding = kBindingEmissionTexture) uniform sampler2D emissionTexture;
 
@@ -26,16 +25,16 @@ struct SurfacePoint {
 };
 
 // Discards what an alpha cutoff removes.
-SurfacePoint findSurfacePoint(uint meshIndex) {
+SurfacePoint findSurfacePoint() {
     Ray ray = makeRay(gl_FragCoord.xy);
     SurfacePoint point;
     float facing = dot(plane.xyz, ray.direction);
     point.isFront = facing < 0.0;
     point.t = (plane.w - dot(plane.xyz, ray.origin)) / (abs(facing) > 1e-20 ? facing : 1e-20);
     point.position = ray.origin + ray.direction * point.t;
-    point.material = materials[meshes[meshIndex].material];
+    point.material = material;
     point.color = textureLod(colorTexture, uv, 0.0);
-    if (point.color.a * point.material.coverage < point.material.alphaCutoff) discard;
+    if (point.color.a * material.coverage < material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
     point.normal = dot(n, ray.direction) > 0.0 ? -n : n;
     return point;

@@ -4,12 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../common/surface.glsl"
 
-layout(push_constant, scalar) uniform Push { MeshPush push; };
 layout(location = 0) out vec4 color;
 layout(location = 1) out float opaqueT;
 
 void main() {
-    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    SurfacePoint point = findSurfacePoint();
     color = vec4(sentRadiance(point, point.material.albedo), 1.0);
     opaqueT = point.t;
 }

@@ -10,7 +10,7 @@ layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 layout(binding = kBindingTriangles, scalar) buffer Triangles { uint triangles[]; };
 
 void main() {
-    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    SurfacePoint point = findSurfacePoint();
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float limit = texelFetch(opaqueT, pixel, 0).x;
     bool isSeen = point.material.type == kMaterialOpaque ? point.t == limit : point.t < limit;

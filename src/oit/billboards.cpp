@@ -36,7 +36,6 @@ Billboards::Billboards(gpu::Device& device, const std::string& name, const Input
                       .vertexSpirv = spv::common_mesh_vert,
                       .fragmentSpirv = spv::oit_billboards_surface_frag,
                       .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
-                      .pushConstantBytes = sizeof(shader::BillboardPush),
                       .colors = kOver}};
 }
 
@@ -49,7 +48,7 @@ void Billboards::recordMedia(gpu::Commands& commands, const frame::PassResources
     bindMedia(commands, inputs, resources.buffer(inputs.spheres));
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
     commands.pushConstants(
-        shader::BillboardPush{.count = count, .order = order ? resources.address(order) : 0});
+        shader::BillboardPush{.order = order ? resources.address(order) : 0, .count = count});
     commands.draw(6 * count);
 }
 
@@ -60,9 +59,7 @@ void Billboards::recordSurfaces(gpu::Commands& commands, const frame::PassResour
     bindFrame(commands, inputs);
     bindMeshes(commands, inputs);
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
-    drawSurfaces(commands, inputs, [&](std::uint32_t mesh) {
-        commands.pushConstants(shader::BillboardPush{.meshIndex = mesh});
-    });
+    drawSurfaces(commands, inputs, [](std::uint32_t) {});
 }
 
 void Billboards::declare(frame::FrameBuilder& frame, const Inputs& inputs,

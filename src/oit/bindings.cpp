@@ -9,7 +9,7 @@ namespace brume::oit {
 using gpu::BindingType;
 
 std::vector<gpu::Binding> frameBindings() {
-    return {{shader::kBindingFrame, BindingType::StorageBuffer},
+    return {{shader::kBindingFrame, BindingType::UniformBuffer},
             {shader::kBindingLights, BindingType::StorageBuffer},
             {shader::kBindingMedia, BindingType::StorageBuffer}};
 }
@@ -23,8 +23,8 @@ std::vector<gpu::Binding> mediaBindings() {
 std::vector<gpu::Binding> meshBindings() {
     return {{shader::kBindingVertices, BindingType::StorageBuffer},
             {shader::kBindingIndices, BindingType::StorageBuffer},
-            {shader::kBindingMeshes, BindingType::StorageBuffer},
-            {shader::kBindingMaterials, BindingType::StorageBuffer},
+            {shader::kBindingMesh, BindingType::UniformBuffer},
+            {shader::kBindingMaterial, BindingType::UniformBuffer},
             {shader::kBindingColorTexture, BindingType::SampledImage},
             {shader::kBindingEmissionTexture, BindingType::SampledImage}};
 }
@@ -49,11 +49,17 @@ void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer&
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs) {
     commands.bind(shader::kBindingVertices, *inputs.vertices);
     commands.bind(shader::kBindingIndices, *inputs.indices);
-    commands.bind(shader::kBindingMeshes, *inputs.meshes);
-    commands.bind(shader::kBindingMaterials, *inputs.materials);
 }
 
-void bindTextures(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw) {
+void bindDraw(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw) {
+    const auto bindElement = [&](std::uint32_t binding, const gpu::Buffer& buffer,
+                                 std::uint32_t index, std::uint64_t bytes) {
+        commands.bind(binding, gpu::BufferRange{
+                                   &buffer, std::uint64_t{index} * shader::kUniformStride, bytes});
+    };
+    bindElement(shader::kBindingMesh, *inputs.meshes, draw.mesh, sizeof(shader::MeshData));
+    bindElement(shader::kBindingMaterial, *inputs.materials, draw.material,
+                sizeof(shader::MaterialData));
     commands.bind(shader::kBindingColorTexture, *draw.colorTexture, *inputs.textureSampler);
     commands.bind(shader::kBindingEmissionTexture, *draw.emissionTexture, *inputs.textureSampler);
 }

@@ -22,14 +22,15 @@ void bindFrame(gpu::Commands& commands, const Inputs& inputs);
 void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres);
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs);
 
-void bindTextures(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw);
+/// The mesh, material and textures of one draw.
+void bindDraw(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw);
 
-/// Binds the textures of each surface and draws it; push(mesh) sets the push constants.
+/// Binds and draws each surface; push(mesh) sets the push constants.
 template <typename Push>
 void drawSurfaces(gpu::Commands& commands, const Inputs& inputs, const Push& push) {
     for (const SurfaceDraw& draw : inputs.surfaces) {
         push(draw.mesh);
-        bindTextures(commands, inputs, draw);
+        bindDraw(commands, inputs, draw);
         commands.draw(draw.vertexCount);
     }
 }

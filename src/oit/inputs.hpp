@@ -23,7 +23,8 @@ struct Needs {
 
 /// One mesh of thin or solid triangles.
 struct SurfaceDraw {
-    std::uint32_t mesh = 0;  ///< index into the meshes
+    std::uint32_t mesh = 0;      ///< index into the meshes
+    std::uint32_t material = 0;  ///< index into the materials
     std::uint32_t vertexCount = 0;
     const gpu::Image* colorTexture = nullptr;
     const gpu::Image* emissionTexture = nullptr;
@@ -41,8 +42,8 @@ struct Inputs {
     const gpu::Buffer* volumes = nullptr;  ///< VolumeData[]
     const gpu::Buffer* vertices = nullptr;
     const gpu::Buffer* indices = nullptr;
-    const gpu::Buffer* meshes = nullptr;
-    const gpu::Buffer* materials = nullptr;
+    const gpu::Buffer* meshes = nullptr;           ///< MeshData, one every kUniformStride bytes
+    const gpu::Buffer* materials = nullptr;        ///< MaterialData, likewise
     const gpu::Sampler* textureSampler = nullptr;  ///< linear, repeating
     const gpu::Sampler* texelSampler = nullptr;    ///< nearest, for texelFetch
     std::uint32_t sphereCount = 0;                 ///< slots; those with radius 0 are empty

@@ -62,7 +62,7 @@ void Sorted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
             bindFrame(commands, inputs);
             bindMedia(commands, inputs, resources.buffer(inputs.spheres));
             commands.pushConstants(shader::BillboardPush{
-                .count = mCount, .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress()});
+                .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress(), .count = mCount});
             commands.dispatch((mCount + 63) / 64);
             commands.computeBarrier();
             mSort.record(commands, mKeys.deviceAddress(), mOrder.deviceAddress(), mCount);

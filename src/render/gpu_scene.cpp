@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <random>
 
@@ -26,6 +27,17 @@ gpu::Buffer makeArray(gpu::Submitter& submitter, const std::string& name, std::v
         buffer = gpu::makeBuffer(commands, name, values);
     });
     return buffer;
+}
+
+/// Uniform blocks, one every kUniformStride bytes.
+template <typename T>
+gpu::Buffer makeUniforms(gpu::Submitter& submitter, const std::string& name,
+                         const std::vector<T>& values) {
+    static_assert(sizeof(T) <= shader::kUniformStride);
+    std::vector<std::byte> bytes(values.size() * shader::kUniformStride);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        std::memcpy(&bytes[i * shader::kUniformStride], &values[i], sizeof(T));
+    return makeArray(submitter, name, std::move(bytes));
 }
 
 shader::LightData makeLight(const scene::Light& light, const dvec3& origin) {
@@ -284,8 +296,7 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
             {.relativeFromObject = relativeFrom(mesh.worldFromObject, mCamera.position),
              .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
              .firstVertex = static_cast<std::uint32_t>(vertices.size()),
-             .firstIndex = static_cast<std::uint32_t>(indices.size()),
-             .material = mesh.material});
+             .firstIndex = static_cast<std::uint32_t>(indices.size())});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -293,6 +304,7 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
         const scene::Material& material = prepared.scene.materials[mesh.material];
         const oit::SurfaceDraw draw{
             .mesh = static_cast<std::uint32_t>(meshes.size() - 1),
+            .material = mesh.material,
             .vertexCount = static_cast<std::uint32_t>(mesh.indices.size()),
             .colorTexture = uploadTexture(submitter, material.colorTexture.get()),
             .emissionTexture = uploadTexture(submitter, material.emissionTexture.get())};
@@ -300,8 +312,8 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
     }
     mVertices = makeArray(submitter, "render.vertices", std::move(vertices));
     mIndices = makeArray(submitter, "render.indices", std::move(indices));
-    mMeshes = makeArray(submitter, "render.meshes", std::move(meshes));
-    mMaterials = makeArray(submitter, "render.materials", std::move(materials));
+    mMeshes = makeUniforms(submitter, "render.meshes", meshes);
+    mMaterials = makeUniforms(submitter, "render.materials", materials);
 }
 
 oit::Inputs GpuScene::makeInputs() const {

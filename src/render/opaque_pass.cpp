@@ -20,10 +20,10 @@ constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 void drawMeshes(gpu::Commands& commands, const oit::Inputs& inputs,
-                const std::vector<oit::SurfaceDraw>& draws) {
+                const std::vector<oit::SurfaceDraw>& draws, bool pushesMesh) {
     for (const oit::SurfaceDraw& draw : draws) {
-        commands.pushConstants(shader::MeshPush{draw.mesh});
-        oit::bindTextures(commands, inputs, draw);
+        if (pushesMesh) commands.pushConstants(shader::MeshPush{draw.mesh});
+        oit::bindDraw(commands, inputs, draw);
         commands.draw(draw.vertexCount);
     }
 }
@@ -42,7 +42,6 @@ OpaquePass::OpaquePass(gpu::Device& device)
                        .vertexSpirv = spv::common_mesh_vert,
                        .fragmentSpirv = spv::render_opaque_frag,
                        .bindings = oit::join(oit::frameBindings(), oit::meshBindings()),
-                       .pushConstantBytes = sizeof(shader::MeshPush),
                        .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}},
                        .depthFormat = kDepthFormat,
                        .depthTest = true,
@@ -86,7 +85,7 @@ void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
             commands.bindGraphics(mOpaque);
             oit::bindFrame(commands, inputs);
             oit::bindMeshes(commands, inputs);
-            drawMeshes(commands, inputs, scene.opaqueMeshes());
+            drawMeshes(commands, inputs, scene.opaqueMeshes(), false);
         });
 }
 
@@ -110,8 +109,8 @@ void OpaquePass::declareTriangles(frame::FrameBuilder& frame, const GpuScene& sc
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
             commands.bind(shader::kBindingTriangles, triangles);
-            drawMeshes(commands, inputs, scene.opaqueMeshes());
-            drawMeshes(commands, inputs, inputs.surfaces);
+            drawMeshes(commands, inputs, scene.opaqueMeshes(), true);
+            drawMeshes(commands, inputs, inputs.surfaces, true);
         });
 }
 

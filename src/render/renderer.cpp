@@ -30,9 +30,10 @@ std::uint64_t takeShuffle(scene::Settings& settings) {
 void warnOfMissingShadows(const scene::Scene& scene, const Log& log) {
     for (const scene::Light& light : scene.lights)
         if (light.type != scene::LightType::Ambient && light.shadow != "none") {
-            log.warning(fmt::format("rendering: shadow store \"{}\" is not available, lights cast "
-                                    "no shadows on the device (--shadow none tells the reference)",
-                                    light.shadow));
+            log.warning(
+                fmt::format("rendering: shadow store \"{}\" is not available, lights cast "
+                            "no shadows on the device (--shadow none tells the reference)",
+                            light.shadow));
             return;
         }
 }

@@ -7,10 +7,9 @@
 BRUME_STRUCTS_BEGIN
 
 struct BillboardPush {
-    uint meshIndex;  // surface passes: which mesh is drawn; first, where mesh.vert looks for it
-    uint count;      // media: sphereCount + boxCount
     uint64_t keys;   // sort: uint[count]
     uint64_t order;  // uint[count], indices in drawing order; 0: as they come
+    uint count;      // sphereCount + boxCount
 };
 
 BRUME_STRUCTS_END

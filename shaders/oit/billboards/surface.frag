@@ -4,14 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../../common/surface.glsl"
-#include "billboards.h"
 
-layout(push_constant, scalar) uniform Push { BillboardPush push; };
 layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 layout(location = 0) out vec4 color;
 
 void main() {
-    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    SurfacePoint point = findSurfacePoint();
     if (point.material.type == kMaterialSolid ||
         point.t >= texelFetch(opaqueT, ivec2(gl_FragCoord.xy), 0).x)
         discard;

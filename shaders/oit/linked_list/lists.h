@@ -18,11 +18,11 @@ BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 struct ListPush {
-    uint meshIndex;    // surface passes: which mesh is drawn; first, where mesh.vert looks for it
-    uint firstTile;    // of the band
-    uint tileCount;    // in the band
-    uint64_t entries;  // uvec2[]
-    uint64_t offsets;  // uint[pixels + 1]: counts until they are summed
+    uint meshIndex;                       // surface passes: which mesh is drawn
+    uint firstTile;                       // of the band
+    uint tileCount;                       // in the band
+    uint64_t entries;                     // uvec2[]
+    uint64_t offsets;                     // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
     uint64_t records;                     // SurfaceRecord[]

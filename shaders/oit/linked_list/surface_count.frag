@@ -9,7 +9,7 @@
 layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 
 void main() {
-    SurfacePoint point = findSurfacePoint(push.meshIndex);
+    SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     bool isSeen =
         point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
