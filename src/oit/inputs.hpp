@@ -18,6 +18,7 @@ struct Needs {
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
     bool varyingLight = false;        ///< point or spot lights
     bool colouredExtinction = false;  ///< extinction or transmission differs between channels
+    std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
 };
 

@@ -113,12 +113,13 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
                               mediaAnd({kOpaqueT}), mediaUsed);
     mStore = makeListPipeline(device, "store", spv::oit_linked_list_store_comp,
                               mediaAnd({kOpaqueT}), mediaUsed);
-    mResolve = makeListPipeline(
-        device, "resolve", spv::oit_linked_list_resolve_comp,
-        mediaAnd({kOpaqueT,
-                  {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-                  {shader::kBindingResult, gpu::BindingType::StorageImage}}),
-        {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction});
+    mResolve =
+        makeListPipeline(device, "resolve", spv::oit_linked_list_resolve_comp,
+                         mediaAnd({kOpaqueT,
+                                   {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+                                   {shader::kBindingResult, gpu::BindingType::StorageImage}}),
+                         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight,
+                          mNeeds.colouredExtinction, mNeeds.media <= shader::kKeptMedia});
     mTotals =
         makeListPipeline(device, "totals", spv::oit_linked_list_totals_comp, {}, {mNeeds.surfaces});
     if (mNeeds.surfaces) {

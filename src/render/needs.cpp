@@ -47,6 +47,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         if (effect.effect.smoothProfile) needs.varyingDensity = true;
     addVolumeNeeds(prepared, needs);
     addSurfaceNeeds(scene, needs);
+    needs.media = static_cast<std::uint32_t>(scene.media.size());
     for (const scene::Medium& medium : scene.media)
         if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
     for (const scene::Light& light : scene.lights) {

@@ -5,6 +5,35 @@
 #define BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
 #include "path.glsl"
 
+// What a medium of density 1 does to a ray: its extinction and its source do not vary along it.
+struct RayMedium {
+    vec3 extinction;  // 1/m
+    vec3 source;      // radiance per metre
+};
+
+RayMedium makeRayMedium(uint index) {
+    MediumData medium = media[index];
+    vec3 light = scatteredRadiance(medium, vec3(0), ray.direction);
+    return RayMedium(medium.extinction,
+                     medium.extinction * medium.albedo * light + medium.emission);
+}
+
+// The first media are worked out once per ray; scenes with more work theirs out at every event.
+RayMedium keptMedia[kKeptMedia];
+
+void keepMedia() {
+    for (uint i = 0u; i < kKeptMedia; ++i)
+        keptMedia[i] = makeRayMedium(min(i, max(frame.mediumCount, 1u) - 1u));
+}
+
+RayMedium findRayMedium(uint index) {
+    if (!kFewMedia) return makeRayMedium(index);
+    RayMedium medium = keptMedia[0];
+    for (uint i = 1u; i < kKeptMedia; ++i)
+        if (index == i) medium = keptMedia[i];
+    return medium;
+}
+
 // Extinction, source and end of the interval that an entry stands for.
 void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float end) {
     uint index = entry.y & kIndexMask;
@@ -27,11 +56,9 @@ void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float e
         tint = sphere.tint;
     }
     end = t.y;
-    MediumData medium = media[mediumIndex];
+    RayMedium medium = findRayMedium(mediumIndex);
     extinction = medium.extinction * density;
-    source =
-        tint * (extinction * medium.albedo * scatteredRadiance(medium, vec3(0), ray.direction) +
-                medium.emission * density);
+    source = tint * density * medium.source;
 }
 
 // The open intervals' ends, sorted, live in list[head .. tail): the entries there are used up.
@@ -52,6 +79,7 @@ void resolveConstant(inout Path path, Solids solids, float limit) {
     vec3 extinctionHi = vec3(0), extinctionLo = vec3(0), sourceHi = vec3(0), sourceLo = vec3(0);
     uint head = 0u, next = 0u;  // open ends: [head, next); unread entries: [next, count)
     float position = 0.0;
+    keepMedia();
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
     vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, vec3(0), ray.direction) : vec3(0);
     uvec2 entry = next < count ? loadEntry(next) : uvec2(0);

@@ -59,6 +59,9 @@ struct TileTotals {
 // Loop iterations after which a pixel gives up: one software rasteriser stops silently at 65 535.
 BRUME_CONST uint kMaxIterations = 64000u;
 
+// Media that the resolve works out once per ray where nothing varies along it.
+BRUME_CONST uint kKeptMedia = 4u;
+
 // Own bindings.
 BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 
