@@ -8,7 +8,7 @@
 #include "frame_bindings.h"
 #include "sphere.h"
 
-layout(binding = kBindingFrame, scalar) uniform FrameBlock { FrameData frame; };
+layout(binding = kBindingFrame, scalar) readonly buffer FrameBlock { FrameData frame; };
 layout(binding = kBindingLights, scalar) readonly buffer LightBuffer { LightData lights[]; };
 layout(binding = kBindingMedia, scalar) readonly buffer MediumBuffer { MediumData media[]; };
 

@@ -6,7 +6,8 @@
 
 BRUME_STRUCTS_BEGIN
 
-BRUME_CONST uint kBindingFrame = 0u;        // FrameData, a uniform block
+BRUME_CONST uint kBindingFrame =
+    0u;  // FrameData; not a uniform block: Mesa 22 recompiles loops over those
 BRUME_CONST uint kBindingLights = 1u;       // LightData[]
 BRUME_CONST uint kBindingMedia = 2u;        // MediumData[]
 BRUME_CONST uint kBindingSpheres = 3u;      // SphereData[]

@@ -9,7 +9,7 @@ namespace brume::oit {
 using gpu::BindingType;
 
 std::vector<gpu::Binding> frameBindings() {
-    return {{shader::kBindingFrame, BindingType::UniformBuffer},
+    return {{shader::kBindingFrame, BindingType::StorageBuffer},
             {shader::kBindingLights, BindingType::StorageBuffer},
             {shader::kBindingMedia, BindingType::StorageBuffer}};
 }
