@@ -31,7 +31,7 @@ float repair(float value, std::uint64_t voxels, SanitiseReport& report) {
         report.negative += voxels;
         return 0;
     }
-    if (std::isinf(value)) {
+    if (value > kGreatestValue) {
         report.infinite += voxels;
         return kValueCap;
     }

@@ -19,7 +19,8 @@ struct GridInfo {
     ivec3 lo{0}, hi{-1};             ///< active index box, inclusive; lo > hi if empty
     std::uint64_t activeVoxels = 0;  ///< tiles counted by their voxels
     std::uint64_t leafCount = 0, activeTileCount = 0;
-    double minValue = 0, maxValue = 0;  ///< of the finite active values
+    double minValue = 0, maxValue = 0;  ///< of the finite active values; lengths of vectors; 0 for
+                                        ///< types that are no reals
     double background = 0;
     SanitiseReport sanitised;
     dmat4 worldFromIndex{1};

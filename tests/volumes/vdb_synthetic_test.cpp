@@ -159,7 +159,8 @@ TEST(LoadVolume_WhatIsNoDensity, IsRefusedWithTheReason) {
         const auto infos = listGrids(folder / "a.vdb");
         ASSERT_EQ(infos.size(), 1u);
         EXPECT_NE(infos[0].refusal, "");
-        if (std::string(type) == "points") continue;
+        const std::string name = type;
+        if (name == "points" || name == "int64" || name == "mask" || name == "vec3d") continue;
         EXPECT_EQ(infos[0].activeVoxels, 1u) << type;
         EXPECT_EQ(infos[0].lo, ivec3(1, 2, 3));
         EXPECT_EQ(infos[0].hi, ivec3(1, 2, 3));

@@ -29,8 +29,8 @@ struct TestTile {
 
 struct TestGrid {
     std::string name = "density";
-    std::string type =
-        "float";  ///< float, half, double, int32, int64, bool, mask, vec3s, vec3half, vec3d, points
+    std::string type = "float";  ///< float, half, double, int32, bool, vec3s, vec3half; empty:
+                                 ///< int64, mask, vec3d, points
     std::string gridClass = "fog volume";
     double background = 0;
     dmat4 worldFromIndex{1};
