@@ -32,25 +32,37 @@ BRUME_CONST uint kBindingGroups = 10u;    // uint[]: count, then offset of each 
 BRUME_CONST uint kBindingTotals = 11u;    // TickTotals
 BRUME_CONST uint kBindingEmitters = 12u;  // EmitterParameters[]
 BRUME_CONST uint kBindingBatches = 13u;   // BirthBatch[] of several ticks
-BRUME_CONST uint kBindingParticleSpheres = 14u;  // SphereData[]
+BRUME_CONST uint kBindingTicks = 14u;     // Tick[]
+BRUME_CONST uint kBindingParticleSpheres = 15u;  // SphereData[]
+
+/// One tick, as the CPU knows it beforehand.
+///
+/// It lies in a storage buffer rather than in push constants, because lavapipe compiles a shader
+/// anew for each new value of a push constant that decides about control flow (if that makes the
+/// shader much smaller).
+struct Tick {
+    uint capacity;
+    uint index;
+    uint chunkSize;
+    uint survivorChunks;  // chunks of existing particles
+    uint birthChunks;
+    uint firstBatch;
+    uint batchCount;
+    uint birthCount;
+    uint overflow;  // births rejected beforehand
+    uint slots;     // after the tick no more particles than that are alive
+};
 
 /// The counters and what a tick keeps between its dispatches.
 struct TickTotals {
     ParticleCounters counters;
     uint previousAlive;  // before the tick
+    uint slots;          // Tick::slots of the last tick
 };
 
 /// Push constants of the four passes of a tick.
 struct TickPush {
-    uint capacity;
-    uint tick;
-    uint chunkSize;
-    uint survivorChunks;  // chunks of existing particles
-    uint birthChunks;
-    uint firstBatch;  // of this tick
-    uint batchCount;
-    uint birthCount;
-    uint overflow;  // births rejected beforehand
+    uint slot;  // in the buffer of ticks
 };
 
 /// Push constants of the pass that writes the spheres.
@@ -60,7 +72,6 @@ struct AppearancePush {
     vec3 axisZ;
     vec3 origin;
     float radiusScale;
-    uint slots;
     uint firstSphere;
     uint lastTick;
     uint medium;
