@@ -18,7 +18,7 @@ BRUME_STRUCTS_BEGIN
 BRUME_CONST uint kChunksPerGroup = 64u;
 
 // Bindings; each pass has those that it uses. A state is an array per field, over the capacity.
-BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters, uniform
+BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters
 BRUME_CONST uint kBindingPositions = 1u;  // before the tick
 BRUME_CONST uint kBindingVelocities = 2u;
 BRUME_CONST uint kBindingLives = 3u;
@@ -37,9 +37,8 @@ BRUME_CONST uint kBindingParticleSpheres = 15u;  // SphereData[]
 
 /// One tick, as the CPU knows it beforehand.
 ///
-/// It lies in a storage buffer rather than in push constants, because lavapipe compiles a shader
-/// anew for each new value of a push constant that decides about control flow (if that makes the
-/// shader much smaller).
+/// It lies in a storage buffer, because lavapipe (Mesa 22.3) compiles a pipeline anew each time it
+/// is bound if push constants or uniform blocks decide about its control flow.
 struct Tick {
     uint capacity;
     uint index;

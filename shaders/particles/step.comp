@@ -30,6 +30,7 @@ void write(uint slot, Particle particle) {
 }
 
 void stepSurvivors(Tick tick, uvec2 range, uint slot) {
+    StepParameters parameters = effect.step;
     for (uint i = range.x; i < range.y; ++i) {
         Particle particle;
         particle.life = lives[i];
@@ -37,7 +38,7 @@ void stepSurvivors(Tick tick, uvec2 range, uint slot) {
             particle.position = positions[i];
             particle.velocity = velocities[i];
             particle.birthIndex = birthIndices[i];
-            stepParticle(particle);
+            stepParticle(parameters, particle);
             write(slot, particle);
             ++slot;
         }
@@ -45,13 +46,14 @@ void stepSurvivors(Tick tick, uvec2 range, uint slot) {
 }
 
 void appendBirths(Tick tick, uvec2 range, uint slot) {
+    StepParameters parameters = effect.step;
     BatchCursor cursor = firstBatch(tick);
     for (uint i = range.x; i < range.y; ++i) {
         BirthBatch batch = batchOf(tick, i, cursor);
         Particle particle = spawnParticle(effect.random, emitters[batch.emitter], batch,
                                           i - cursor.first, tick.index);
         if (isAlive(particle.life, tick.index) && slot < tick.capacity) {
-            stepNewParticle(particle);
+            stepNewParticle(parameters, particle);
             write(slot, particle);
             ++slot;
         }

@@ -99,11 +99,7 @@ void GpuSimulation::makePipelines(gpu::Device& device) {
         gpu::ComputePipelineDesc desc;
         desc.name = name;
         desc.spirv = spirv;
-        for (const std::uint32_t number : bindings)
-            desc.bindings.push_back({.number = number,
-                                     .type = number == sh::kBindingEffect
-                                                 ? gpu::BindingType::UniformBuffer
-                                                 : gpu::BindingType::StorageBuffer});
+        for (const std::uint32_t number : bindings) desc.bindings.push_back({.number = number});
         desc.pushConstantBytes = static_cast<std::uint32_t>(pushBytes);
         desc.specialization = {mWorkgroupSize, mEffect.parameters.curlNoiseCount};
         return gpu::ComputePipeline(device, desc);
