@@ -20,8 +20,11 @@ std::uint32_t divideUp(std::uint64_t a, std::uint64_t b) {
     return static_cast<std::uint32_t>((a + b - 1) / b);
 }
 
-/// Software devices like long serial runs, GPUs many threads; chosen by us from `brume bench`.
-std::uint32_t defaultChunkSize(const gpu::Device& device) { return device.isLavapipe() ? 128 : 16; }
+/// Software devices like long serial runs as long as there are enough for their threads and lanes,
+/// GPUs like many threads; chosen by us from measurements.
+std::uint32_t defaultChunkSize(const gpu::Device& device, std::uint32_t capacity) {
+    return device.isLavapipe() ? std::clamp(capacity / 512, 16u, 512u) : 16;
+}
 
 /// Ticks whose parameters are uploaded at once; chosen by us, a second or more of most effects.
 constexpr std::uint32_t kTicksPerPart = 256;
@@ -54,7 +57,8 @@ GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect, s
       mSchedule(mEffect.schedule),
       mAliveBound(mEffect.aliveBound),
       mWorkgroupSize(options.workgroupSize),
-      mChunkSize(options.chunkSize ? options.chunkSize : defaultChunkSize(device)) {
+      mChunkSize(options.chunkSize ? options.chunkSize
+                                   : defaultChunkSize(device, mEffect.capacity)) {
     // Beyond that an invocation may exceed the iterations that a software device grants it.
     BRUME_ASSERT_LE(mChunkSize, 4096u);
     makeBuffers(device);
