@@ -18,7 +18,7 @@ layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer Part
 void main() {
     uint slot = gl_GlobalInvocationID.x +
                 gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    if (slot >= push.slots) return;
+    if (slot >= totals.slots) return;
     SphereData sphere = SphereData(vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
     if (slot < totals.counters.alive) {
         ParticleLife life = lives[slot];

@@ -11,12 +11,12 @@ struct BatchCursor {
     uint first;  // births of this tick before this batch
 };
 
-BatchCursor firstBatch() { return BatchCursor(push.firstBatch, 0u); }
+BatchCursor firstBatch(Tick tick) { return BatchCursor(tick.firstBatch, 0u); }
 
-BirthBatch batchOf(uint birth, inout BatchCursor cursor) {
-    uint last = push.firstBatch + push.batchCount - 1u;
+BirthBatch batchOf(Tick tick, uint birth, inout BatchCursor cursor) {
+    uint last = tick.firstBatch + tick.batchCount - 1u;
     BirthBatch batch = batches[cursor.index];
-    // Bounded by the push constant as well: lavapipe fills workgroups up to its vector width with
+    // Bounded by their number as well: lavapipe fills workgroups up to its vector width with
     // lanes whose loads give 0, and they would never leave.
     while (birth >= cursor.first + batch.count && cursor.index < last) {
         cursor.first += batch.count;

@@ -15,20 +15,21 @@ layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { 
 layout(set = 0, binding = kBindingChunks, scalar) writeonly buffer ChunksBlock { uint chunks[]; };
 
 void main() {
+    Tick tick = ticks[push.slot];
     uint chunk = threadIndex();
-    if (chunk >= push.survivorChunks + push.birthChunks) return;
+    if (chunk >= tick.survivorChunks + tick.birthChunks) return;
 
     uint count = 0u;
-    uvec2 survivors = survivorRange(chunk, totals.counters.alive);
-    for (uint i = survivors.x; i < survivors.y; ++i) count += isAlive(lives[i], push.tick) ? 1u : 0u;
+    uvec2 survivors = survivorRange(tick, chunk, totals.counters.alive);
+    for (uint i = survivors.x; i < survivors.y; ++i) count += isAlive(lives[i], tick.index) ? 1u : 0u;
 
-    uvec2 births = birthRange(chunk);
-    BatchCursor cursor = firstBatch();
+    uvec2 births = birthRange(tick, chunk);
+    BatchCursor cursor = firstBatch(tick);
     for (uint i = births.x; i < births.y; ++i) {
-        BirthBatch batch = batchOf(i, cursor);
+        BirthBatch batch = batchOf(tick, i, cursor);
         EmitterParameters emitter = emitters[batch.emitter];
-        ParticleLife life = spawnLife(effect.random, emitter, batch, i - cursor.first, push.tick);
-        count += isAlive(life, push.tick) ? 1u : 0u;
+        ParticleLife life = spawnLife(effect.random, emitter, batch, i - cursor.first, tick.index);
+        count += isAlive(life, tick.index) ? 1u : 0u;
     }
     chunks[chunk] = count;
 }

@@ -8,13 +8,14 @@ layout(set = 0, binding = kBindingChunks, scalar) buffer ChunksBlock { uint chun
 layout(set = 0, binding = kBindingGroups, scalar) writeonly buffer GroupsBlock { uint groups[]; };
 
 void main() {
+    Tick tick = ticks[push.slot];
     uint group = threadIndex();
-    uint survivorGroups = groupOf(push.survivorChunks);
-    uint chunkCount = push.survivorChunks + push.birthChunks;
+    uint survivorGroups = groupOf(tick, tick.survivorChunks);
+    uint chunkCount = tick.survivorChunks + tick.birthChunks;
     bool isBirth = group >= survivorGroups;
-    uint begin = isBirth ? push.survivorChunks + (group - survivorGroups) * kChunksPerGroup
+    uint begin = isBirth ? tick.survivorChunks + (group - survivorGroups) * kChunksPerGroup
                          : group * kChunksPerGroup;
-    uint end = min(begin + kChunksPerGroup, isBirth ? chunkCount : push.survivorChunks);
+    uint end = min(begin + kChunksPerGroup, isBirth ? chunkCount : tick.survivorChunks);
     if (begin >= end) return;
 
     uint sum = 0u;

@@ -18,7 +18,7 @@ BRUME_STRUCTS_BEGIN
 BRUME_CONST uint kChunksPerGroup = 64u;
 
 // Bindings; each pass has those that it uses. A state is an array per field, over the capacity.
-BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters, uniform
+BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters
 BRUME_CONST uint kBindingPositions = 1u;  // before the tick
 BRUME_CONST uint kBindingVelocities = 2u;
 BRUME_CONST uint kBindingLives = 3u;
@@ -32,25 +32,36 @@ BRUME_CONST uint kBindingGroups = 10u;    // uint[]: count, then offset of each 
 BRUME_CONST uint kBindingTotals = 11u;    // TickTotals
 BRUME_CONST uint kBindingEmitters = 12u;  // EmitterParameters[]
 BRUME_CONST uint kBindingBatches = 13u;   // BirthBatch[] of several ticks
-BRUME_CONST uint kBindingParticleSpheres = 14u;  // SphereData[]
+BRUME_CONST uint kBindingTicks = 14u;     // Tick[]
+BRUME_CONST uint kBindingParticleSpheres = 15u;  // SphereData[]
+
+/// One tick, as the CPU knows it beforehand.
+///
+/// It lies in a storage buffer, because lavapipe (Mesa 22.3) compiles a pipeline anew each time it
+/// is bound if push constants or uniform blocks decide about its control flow.
+struct Tick {
+    uint capacity;
+    uint index;
+    uint chunkSize;
+    uint survivorChunks;  // chunks of existing particles
+    uint birthChunks;
+    uint firstBatch;
+    uint batchCount;
+    uint birthCount;
+    uint overflow;  // births rejected beforehand
+    uint slots;     // after the tick no more particles than that are alive
+};
 
 /// The counters and what a tick keeps between its dispatches.
 struct TickTotals {
     ParticleCounters counters;
     uint previousAlive;  // before the tick
+    uint slots;          // Tick::slots of the last tick
 };
 
 /// Push constants of the four passes of a tick.
 struct TickPush {
-    uint capacity;
-    uint tick;
-    uint chunkSize;
-    uint survivorChunks;  // chunks of existing particles
-    uint birthChunks;
-    uint firstBatch;  // of this tick
-    uint batchCount;
-    uint birthCount;
-    uint overflow;  // births rejected beforehand
+    uint slot;  // in the buffer of ticks
 };
 
 /// Push constants of the pass that writes the spheres.
@@ -60,7 +71,6 @@ struct AppearancePush {
     vec3 axisZ;
     vec3 origin;
     float radiusScale;
-    uint slots;
     uint firstSphere;
     uint lastTick;
     uint medium;

@@ -29,29 +29,31 @@ void write(uint slot, Particle particle) {
     newBirthIndices[slot] = particle.birthIndex;
 }
 
-void stepSurvivors(uvec2 range, uint slot) {
+void stepSurvivors(Tick tick, uvec2 range, uint slot) {
+    StepParameters parameters = effect.step;
     for (uint i = range.x; i < range.y; ++i) {
         Particle particle;
         particle.life = lives[i];
-        if (isAlive(particle.life, push.tick)) {
+        if (isAlive(particle.life, tick.index)) {
             particle.position = positions[i];
             particle.velocity = velocities[i];
             particle.birthIndex = birthIndices[i];
-            stepParticle(particle);
+            stepParticle(parameters, particle);
             write(slot, particle);
             ++slot;
         }
     }
 }
 
-void appendBirths(uvec2 range, uint slot) {
-    BatchCursor cursor = firstBatch();
+void appendBirths(Tick tick, uvec2 range, uint slot) {
+    StepParameters parameters = effect.step;
+    BatchCursor cursor = firstBatch(tick);
     for (uint i = range.x; i < range.y; ++i) {
-        BirthBatch batch = batchOf(i, cursor);
+        BirthBatch batch = batchOf(tick, i, cursor);
         Particle particle = spawnParticle(effect.random, emitters[batch.emitter], batch,
-                                          i - cursor.first, push.tick);
-        if (isAlive(particle.life, push.tick) && slot < push.capacity) {
-            stepNewParticle(particle);
+                                          i - cursor.first, tick.index);
+        if (isAlive(particle.life, tick.index) && slot < tick.capacity) {
+            stepNewParticle(parameters, particle);
             write(slot, particle);
             ++slot;
         }
@@ -59,9 +61,10 @@ void appendBirths(uvec2 range, uint slot) {
 }
 
 void main() {
+    Tick tick = ticks[push.slot];
     uint chunk = threadIndex();
-    if (chunk >= push.survivorChunks + push.birthChunks) return;
-    uint slot = groups[groupOf(chunk)] + chunks[chunk];
-    stepSurvivors(survivorRange(chunk, totals.previousAlive), slot);
-    appendBirths(birthRange(chunk), slot);
+    if (chunk >= tick.survivorChunks + tick.birthChunks) return;
+    uint slot = groups[groupOf(tick, chunk)] + chunks[chunk];
+    stepSurvivors(tick, survivorRange(tick, chunk, totals.previousAlive), slot);
+    appendBirths(tick, birthRange(tick, chunk), slot);
 }

@@ -68,29 +68,31 @@ BRUME_SHARED void killIfNotFinite(BRUME_INOUT(Particle) particle) {
     }
 }
 
-/// A whole tick.
-BRUME_SHARED void stepParticle(BRUME_EFFECT_PARAMETER BRUME_INOUT(Particle) particle) {
+/// A whole tick. `parameters` are those of the effect, loaded once for many particles.
+BRUME_SHARED void stepParticle(BRUME_EFFECT_PARAMETER StepParameters parameters,
+                               BRUME_INOUT(Particle) particle) {
     BRUME_PRECISE vec3 acceleration =
-        BRUME_EFFECT.step.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
-    integrate(particle.position, particle.velocity, acceleration, BRUME_EFFECT.step.wind,
-              BRUME_EFFECT.step.tickSeconds, BRUME_EFFECT.step.loss, BRUME_EFFECT.step.velocityGain,
-              BRUME_EFFECT.step.positionGain);
+        parameters.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
+    integrate(particle.position, particle.velocity, acceleration, parameters.wind,
+              parameters.tickSeconds, parameters.loss, parameters.velocityGain,
+              parameters.positionGain);
     killIfNotFinite(particle);
 }
 
 /// The part of its first tick that is left after a particle's birth.
-BRUME_SHARED void stepNewParticle(BRUME_EFFECT_PARAMETER BRUME_INOUT(Particle) particle) {
+BRUME_SHARED void stepNewParticle(BRUME_EFFECT_PARAMETER StepParameters parameters,
+                                  BRUME_INOUT(Particle) particle) {
     BRUME_PRECISE float part = particle.life.birthRemaining;
-    BRUME_PRECISE float seconds = BRUME_EFFECT.step.tickSeconds * part;
+    BRUME_PRECISE float seconds = parameters.tickSeconds * part;
     BRUME_PRECISE float loss, phi1, phi2;
-    BRUME_PRECISE float drag = BRUME_EFFECT.step.dragPerTick * part;
-    exponentialFactors(drag, BRUME_EFFECT.step.dragHalvings, loss, phi1, phi2);
+    BRUME_PRECISE float drag = parameters.dragPerTick * part;
+    exponentialFactors(drag, parameters.dragHalvings, loss, phi1, phi2);
     BRUME_PRECISE float velocityGain = seconds * phi1;
     BRUME_PRECISE float positionGain = seconds * seconds * phi2;
     BRUME_PRECISE vec3 acceleration =
-        BRUME_EFFECT.step.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
-    integrate(particle.position, particle.velocity, acceleration, BRUME_EFFECT.step.wind, seconds,
-              loss, velocityGain, positionGain);
+        parameters.acceleration + fieldAcceleration(BRUME_EFFECT_ARGUMENT particle.position);
+    integrate(particle.position, particle.velocity, acceleration, parameters.wind, seconds, loss,
+              velocityGain, positionGain);
     killIfNotFinite(particle);
 }
 

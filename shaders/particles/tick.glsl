@@ -4,6 +4,7 @@
 
 layout(local_size_x_id = 0) in;
 layout(push_constant, scalar) uniform Push { TickPush push; };
+layout(set = 0, binding = kBindingTicks, scalar) readonly buffer TicksBlock { Tick ticks[]; };
 
 /// The index of an invocation of Commands::dispatchThreads.
 uint threadIndex() {
@@ -12,22 +13,22 @@ uint threadIndex() {
 }
 
 /// Existing particles of a chunk: [x, y); empty for chunks of births.
-uvec2 survivorRange(uint chunk, uint alive) {
-    uint begin = chunk < push.survivorChunks ? chunk * push.chunkSize : alive;
-    return uvec2(begin, min(begin + push.chunkSize, alive));
+uvec2 survivorRange(Tick tick, uint chunk, uint alive) {
+    uint begin = chunk < tick.survivorChunks ? chunk * tick.chunkSize : alive;
+    return uvec2(begin, min(begin + tick.chunkSize, alive));
 }
 
 /// Births of a chunk: [x, y), counted over the tick; empty for chunks of existing particles.
-uvec2 birthRange(uint chunk) {
-    uint begin = chunk < push.survivorChunks ? push.birthCount
-                                             : (chunk - push.survivorChunks) * push.chunkSize;
-    return uvec2(begin, min(begin + push.chunkSize, push.birthCount));
+uvec2 birthRange(Tick tick, uint chunk) {
+    uint begin = chunk < tick.survivorChunks ? tick.birthCount
+                                             : (chunk - tick.survivorChunks) * tick.chunkSize;
+    return uvec2(begin, min(begin + tick.chunkSize, tick.birthCount));
 }
 
 /// The group of a chunk; births begin a new one.
-uint groupOf(uint chunk) {
-    uint survivorGroups = (push.survivorChunks + kChunksPerGroup - 1u) / kChunksPerGroup;
-    return chunk < push.survivorChunks
+uint groupOf(Tick tick, uint chunk) {
+    uint survivorGroups = (tick.survivorChunks + kChunksPerGroup - 1u) / kChunksPerGroup;
+    return chunk < tick.survivorChunks
                ? chunk / kChunksPerGroup
-               : survivorGroups + (chunk - push.survivorChunks) / kChunksPerGroup;
+               : survivorGroups + (chunk - tick.survivorChunks) / kChunksPerGroup;
 }

@@ -9,8 +9,9 @@ layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotal
 
 void main() {
     if (threadIndex() != 0u) return;
-    uint survivorGroups = groupOf(push.survivorChunks);
-    uint birthGroups = (push.birthChunks + kChunksPerGroup - 1u) / kChunksPerGroup;
+    Tick tick = ticks[push.slot];
+    uint survivorGroups = groupOf(tick, tick.survivorChunks);
+    uint birthGroups = (tick.birthChunks + kChunksPerGroup - 1u) / kChunksPerGroup;
     uint sum = 0u;
     uint survivors = 0u;
     for (uint i = 0u; i < survivorGroups + birthGroups; ++i) {
@@ -24,11 +25,12 @@ void main() {
     ParticleCounters counters = totals.counters;
     uint previous = counters.alive;
     uint lasting = sum - survivors;  // births that outlive this tick
-    counters.alive = min(sum, push.capacity);
+    counters.alive = min(sum, tick.capacity);
     uint turnedAway = sum - counters.alive;
-    counters.born += push.birthCount - turnedAway;
-    counters.died += previous - survivors + push.birthCount - lasting;
-    counters.rejected += turnedAway + push.overflow;
+    counters.born += tick.birthCount - turnedAway;
+    counters.died += previous - survivors + tick.birthCount - lasting;
+    counters.rejected += turnedAway + tick.overflow;
     totals.counters = counters;
     totals.previousAlive = previous;
+    totals.slots = tick.slots;
 }

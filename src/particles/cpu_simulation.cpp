@@ -24,7 +24,7 @@ void CpuSimulation::stepSurvivors(std::uint32_t tick) {
     for (const Particle& old : mParticles) {
         if (!shader::isAlive(old.life, tick)) continue;
         Particle particle = old;
-        shader::stepParticle(mEffect.parameters, particle);
+        shader::stepParticle(mEffect.parameters, mEffect.parameters.step, particle);
         mParticles[kept++] = particle;
     }
     mCounters.died += static_cast<std::uint32_t>(mParticles.size() - kept);
@@ -45,7 +45,7 @@ void CpuSimulation::appendBirths(const TickBirths& births, std::uint32_t tick) {
                 --mCounters.born;
                 ++mCounters.rejected;
             } else {
-                shader::stepNewParticle(mEffect.parameters, particle);
+                shader::stepNewParticle(mEffect.parameters, mEffect.parameters.step, particle);
                 mParticles.push_back(particle);
             }
         }

@@ -20,8 +20,24 @@ std::uint32_t divideUp(std::uint64_t a, std::uint64_t b) {
     return static_cast<std::uint32_t>((a + b - 1) / b);
 }
 
-/// Software devices like long serial runs, GPUs many threads; chosen by us from `brume bench`.
-std::uint32_t defaultChunkSize(const gpu::Device& device) { return device.isLavapipe() ? 128 : 16; }
+/// Software devices like long serial runs as long as there are enough for their threads and lanes,
+/// GPUs like many threads; chosen by us from measurements.
+std::uint32_t defaultChunkSize(const gpu::Device& device, std::uint32_t capacity) {
+    return device.isLavapipe() ? std::clamp(capacity / 512, 16u, 512u) : 16;
+}
+
+/// Ticks whose parameters are uploaded at once; chosen by us, a second or more of most effects.
+constexpr std::uint32_t kTicksPerPart = 256;
+
+/// Writes an array by way of the command buffer, which takes 64 KiB at a time.
+template <typename T>
+void updateArray(gpu::Commands& commands, const gpu::Buffer& buffer, const std::vector<T>& values) {
+    constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
+    for (std::size_t first = 0; first < values.size(); first += kPerUpdate) {
+        const std::size_t count = std::min(kPerUpdate, values.size() - first);
+        commands.updateBuffer(buffer, &values[first], count * sizeof(T), first * sizeof(T));
+    }
+}
 
 template <typename T>
 gpu::Buffer makeFilledBuffer(gpu::Device& device, const std::string& name,
@@ -41,7 +57,8 @@ GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect, s
       mSchedule(mEffect.schedule),
       mAliveBound(mEffect.aliveBound),
       mWorkgroupSize(options.workgroupSize),
-      mChunkSize(options.chunkSize ? options.chunkSize : defaultChunkSize(device)) {
+      mChunkSize(options.chunkSize ? options.chunkSize
+                                   : defaultChunkSize(device, mEffect.capacity)) {
     // Beyond that an invocation may exceed the iterations that a software device grants it.
     BRUME_ASSERT_LE(mChunkSize, 4096u);
     makeBuffers(device);
@@ -66,6 +83,8 @@ void GpuSimulation::makeBuffers(gpu::Device& device) {
                                           .bytes = stateOffsets()[4]});
     mBatches = gpu::Buffer(device, {.name = "particles.batches",
                                     .bytes = mBatchCapacity * sizeof(shader::BirthBatch)});
+    mTicks = gpu::Buffer(
+        device, {.name = "particles.ticks", .bytes = kTicksPerPart * sizeof(shader::Tick)});
     mChunks = gpu::Buffer(device, {.name = "particles.chunks", .bytes = 2 * chunks * 4});
     mGroups = gpu::Buffer(device, {.name = "particles.groups", .bytes = 2 * groups * 4});
     mTotals =
@@ -84,11 +103,7 @@ void GpuSimulation::makePipelines(gpu::Device& device) {
         gpu::ComputePipelineDesc desc;
         desc.name = name;
         desc.spirv = spirv;
-        for (const std::uint32_t number : bindings)
-            desc.bindings.push_back({.number = number,
-                                     .type = number == sh::kBindingEffect
-                                                 ? gpu::BindingType::UniformBuffer
-                                                 : gpu::BindingType::StorageBuffer});
+        for (const std::uint32_t number : bindings) desc.bindings.push_back({.number = number});
         desc.pushConstantBytes = static_cast<std::uint32_t>(pushBytes);
         desc.specialization = {mWorkgroupSize, mEffect.parameters.curlNoiseCount};
         return gpu::ComputePipeline(device, desc);
@@ -96,13 +111,13 @@ void GpuSimulation::makePipelines(gpu::Device& device) {
     constexpr std::size_t kTickBytes = sizeof(sh::TickPush);
     mCount = make("particles.count", spv::particles_count_comp,
                   {sh::kBindingEffect, sh::kBindingLives, sh::kBindingChunks, sh::kBindingTotals,
-                   sh::kBindingEmitters, sh::kBindingBatches},
+                   sh::kBindingEmitters, sh::kBindingBatches, sh::kBindingTicks},
                   kTickBytes);
     mOffsets = make("particles.offsets", spv::particles_offsets_comp,
-                    {sh::kBindingChunks, sh::kBindingGroups}, kTickBytes);
+                    {sh::kBindingChunks, sh::kBindingGroups, sh::kBindingTicks}, kTickBytes);
     mTotalsPass = make("particles.totals", spv::particles_totals_comp,
-                       {sh::kBindingGroups, sh::kBindingTotals}, kTickBytes);
-    Numbers all(sh::kBindingBatches + 1);
+                       {sh::kBindingGroups, sh::kBindingTotals, sh::kBindingTicks}, kTickBytes);
+    Numbers all(sh::kBindingTicks + 1);
     std::iota(all.begin(), all.end(), 0u);
     mStep = make("particles.step", spv::particles_step_comp, all, kTickBytes);
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
@@ -150,6 +165,9 @@ void GpuSimulation::bindForTick(gpu::Commands& commands,
             case shader::kBindingBatches:
                 commands.bind(number, mBatches);
                 break;
+            case shader::kBindingTicks:
+                commands.bind(number, mTicks);
+                break;
             default:
                 if (number >= shader::kBindingNewPositions)
                     commands.bind(number,
@@ -163,7 +181,7 @@ void GpuSimulation::bindForTick(gpu::Commands& commands,
 std::uint64_t GpuSimulation::bytes() const {
     std::uint64_t sum = 0;
     for (const gpu::Buffer* buffer : {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mBatches,
-                                      &mChunks, &mGroups, &mTotals})
+                                      &mTicks, &mChunks, &mGroups, &mTotals})
         sum += buffer->bytes();
     return sum;
 }
@@ -190,68 +208,55 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
         mMustClear = false;
     }
     for (std::uint64_t end = tick() + ticks; tick() < end;) {
-        auto tickIndex = static_cast<std::uint32_t>(tick());
-        const std::vector<TickBirths> births = scheduleTicks(end - tick());
-        uploadBatches(commands, births);
-        std::uint32_t firstBatch = 0;
-        for (const TickBirths& one : births) {
-            recordTick(commands, one, firstBatch, tickIndex++);
-            firstBatch += static_cast<std::uint32_t>(one.batches.size());
-        }
+        const Part part = schedulePart(end - tick());
+        updateArray(commands, mTicks, part.ticks);
+        updateArray(commands, mBatches, part.batches);
+        commands.computeTransferBarrier();
+        for (std::uint32_t slot = 0; slot < part.ticks.size(); ++slot)
+            recordTick(commands, part.ticks[slot], slot);
         commands.computeTransferBarrier();
     }
     commands.endLabel();
 }
 
-/// At most `ticks`, as many as have room in the buffer of batches.
-std::vector<TickBirths> GpuSimulation::scheduleTicks(std::uint64_t ticks) {
-    std::vector<TickBirths> births;
-    std::size_t batches = 0;
-    while (births.size() < ticks && batches + mSchedule.maxBatchesPerTick() <= mBatchCapacity) {
-        births.push_back(mSchedule.next());
-        batches += births.back().batches.size();
+GpuSimulation::Part GpuSimulation::schedulePart(std::uint64_t maxTicks) {
+    Part part;
+    maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
+    while (part.ticks.size() < maxTicks &&
+           part.batches.size() + mSchedule.maxBatchesPerTick() <= mBatchCapacity) {
+        const TickBirths births = mSchedule.next();
+        part.ticks.push_back(makeTick(births, static_cast<std::uint32_t>(part.batches.size())));
+        part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());
     }
-    return births;
+    return part;
 }
 
-void GpuSimulation::uploadBatches(gpu::Commands& commands, const std::vector<TickBirths>& births) {
-    std::vector<shader::BirthBatch> all;
-    for (const TickBirths& one : births)
-        all.insert(all.end(), one.batches.begin(), one.batches.end());
-    constexpr std::size_t kPerUpdate = 65536 / sizeof(shader::BirthBatch);
-    for (std::size_t first = 0; first < all.size(); first += kPerUpdate) {
-        const std::size_t count = std::min(kPerUpdate, all.size() - first);
-        commands.updateBuffer(mBatches, &all[first], count * sizeof(shader::BirthBatch),
-                              first * sizeof(shader::BirthBatch));
-    }
-    commands.computeTransferBarrier();
+/// The tick that the schedule has just given.
+shader::Tick GpuSimulation::makeTick(const TickBirths& births, std::uint32_t firstBatch) {
+    shader::Tick tick{};
+    tick.capacity = mEffect.capacity;
+    tick.index = static_cast<std::uint32_t>(mSchedule.tick() - 1);
+    tick.chunkSize = mChunkSize;
+    tick.survivorChunks = divideUp(slotCount(), mChunkSize);
+    tick.birthChunks = divideUp(births.count, mChunkSize);
+    tick.firstBatch = firstBatch;
+    tick.batchCount = static_cast<std::uint32_t>(births.batches.size());
+    tick.birthCount = births.count;
+    tick.overflow = births.overflow;
+    mAliveBound.addTick(births.count);
+    tick.slots = slotCount();
+    return tick;
 }
 
-shader::TickPush GpuSimulation::tickPush(const TickBirths& births, std::uint32_t firstBatch,
-                                         std::uint32_t tick) const {
-    shader::TickPush push{};
-    push.capacity = mEffect.capacity;
-    push.tick = tick;
-    push.chunkSize = mChunkSize;
-    push.survivorChunks = divideUp(slotCount(), mChunkSize);
-    push.birthChunks = divideUp(births.count, mChunkSize);
-    push.firstBatch = firstBatch;
-    push.batchCount = static_cast<std::uint32_t>(births.batches.size());
-    push.birthCount = births.count;
-    push.overflow = births.overflow;
-    return push;
-}
-
-void GpuSimulation::recordTick(gpu::Commands& commands, const TickBirths& births,
-                               std::uint32_t firstBatch, std::uint32_t tick) {
-    const shader::TickPush push = tickPush(births, firstBatch, tick);
-    const std::uint32_t chunks = push.survivorChunks + push.birthChunks;
-    const std::uint32_t groups = divideUp(push.survivorChunks, shader::kChunksPerGroup) +
-                                 divideUp(push.birthChunks, shader::kChunksPerGroup);
+void GpuSimulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,
+                               std::uint32_t slot) {
+    const std::uint32_t chunks = tick.survivorChunks + tick.birthChunks;
+    const std::uint32_t groups = divideUp(tick.survivorChunks, shader::kChunksPerGroup) +
+                                 divideUp(tick.birthChunks, shader::kChunksPerGroup);
     const auto dispatch = [&](const gpu::ComputePipeline& pipeline, std::uint32_t threads) {
         if (threads == 0) return;
         bindForTick(commands, pipeline);
-        commands.pushConstants(push);
+        commands.pushConstants(shader::TickPush{slot});
         commands.dispatchThreads(threads, mWorkgroupSize);
         commands.computeBarrier();
     };
@@ -259,7 +264,6 @@ void GpuSimulation::recordTick(gpu::Commands& commands, const TickBirths& births
     dispatch(mOffsets, groups);
     dispatch(mTotalsPass, 1);
     dispatch(mStep, chunks);
-    mAliveBound.addTick(births.count);
     mCurrent = 1 - mCurrent;
 }
 
@@ -272,7 +276,6 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     push.axisZ = vec3(dvec3(m[2]));
     push.origin = vec3(dvec3(m[3]) - appearance.cameraPosition);
     push.radiusScale = static_cast<float>(lengthScale(m));
-    push.slots = slotCount();
     push.firstSphere = appearance.firstSphere;
     push.lastTick = static_cast<std::uint32_t>(tick() - 1);
     push.medium = appearance.medium;

@@ -67,16 +67,18 @@ class GpuSimulation {
     void makeBuffers(gpu::Device& device);
     void makePipelines(gpu::Device& device);
     void restart();
-    std::vector<TickBirths> scheduleTicks(std::uint64_t ticks);
-    void uploadBatches(gpu::Commands& commands, const std::vector<TickBirths>& births);
-    void recordTick(gpu::Commands& commands, const TickBirths& births, std::uint32_t firstBatch,
-                    std::uint32_t tick);
+    /// Ticks that are recorded together, because their parameters are uploaded together.
+    struct Part {
+        std::vector<shader::Tick> ticks;
+        std::vector<shader::BirthBatch> batches;
+    };
+    Part schedulePart(std::uint64_t maxTicks);
+    shader::Tick makeTick(const TickBirths& births, std::uint32_t firstBatch);
+    void recordTick(gpu::Commands& commands, const shader::Tick& tick, std::uint32_t slot);
     /// Where the arrays of a state begin: positions, velocities, lives, birth indices, end.
     std::array<std::uint64_t, 5> stateOffsets() const;
     gpu::BufferRange stateRange(std::uint32_t state, std::uint32_t field) const;
     void bindForTick(gpu::Commands& commands, const gpu::ComputePipeline& pipeline) const;
-    shader::TickPush tickPush(const TickBirths& births, std::uint32_t firstBatch,
-                              std::uint32_t tick) const;
 
     CompiledEffect mEffect;
     SpawnSchedule mSchedule;
@@ -91,6 +93,7 @@ class GpuSimulation {
     gpu::Buffer mParameters;
     gpu::Buffer mEmitters;
     gpu::Buffer mBatches;
+    gpu::Buffer mTicks;
     gpu::Buffer mChunks;
     gpu::Buffer mGroups;
     gpu::Buffer mTotals;

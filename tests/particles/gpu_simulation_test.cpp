@@ -134,13 +134,13 @@ TEST_F(GpuSimulationTest, HugeForces_GiveTheBitsOfTheTwin) {
 TEST_F(GpuSimulationTest, AnyWorkgroupAndChunkSize_GiveTheSameBits) {
     CpuSimulation cpu(busyEffect(), 2);
     cpu.step(150);
-    for (const std::uint32_t workgroupSize : {1u, 7u, 64u, 256u})
-        for (const std::uint32_t chunkSize : {5u, 64u, 4096u}) {
-            SCOPED_TRACE(testing::Message() << workgroupSize << " x " << chunkSize);
-            GpuSimulation gpu(device(), busyEffect(), 2, 0, {workgroupSize, chunkSize});
-            runTicks(gpu, 150);
-            expectSame(gpu, cpu);
-        }
+    for (const GpuSimulationOptions options :
+         {GpuSimulationOptions{1, 64}, {7, 64}, {64, 4096}, {256, 5}, {256, 1}}) {
+        SCOPED_TRACE(testing::Message() << options.workgroupSize << " x " << options.chunkSize);
+        GpuSimulation gpu(device(), busyEffect(), 2, 0, options);
+        runTicks(gpu, 150);
+        expectSame(gpu, cpu);
+    }
 }
 
 TEST_F(GpuSimulationTest, TwentyRuns_GiveTheSameHash) {

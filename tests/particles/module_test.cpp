@@ -6,6 +6,9 @@
 
 #include "effects.hpp"
 
+#include <fstream>
+#include <iterator>
+
 namespace brume::particles {
 namespace {
 
@@ -34,6 +37,17 @@ TEST(Modules, Registry_IsCompleteAndItsDefaultsAreAllowed) {
         }
         EXPECT_EQ(messageOf(settings), "no error") << module.info.name;
     }
+}
+
+TEST(Modules, Documentation_NamesEveryKeyWithItsUnit) {
+    std::ifstream file(BRUME_SOURCE_DIR "/docs/particles.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const Module& module : modules())
+        for (const ModuleKey& key : module.info.keys)
+            EXPECT_NE(
+                text.find("| `" + module.info.name + "` | `" + key.name + "` | " + key.unit + " |"),
+                std::string::npos)
+                << module.info.name << "." << key.name;
 }
 
 TEST(Modules, UnknownModule_ListsTheKnownOnes) {
