@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "process.hpp"
 
@@ -113,6 +114,17 @@ TEST_F(CommandLine, Lists_NameWhatThereIs) {
     EXPECT_EQ(table.out.substr(0, 10), "| method |");
 }
 
+TEST_F(CommandLine, ReadmeTable_IsWhatTheListPrints) {
+    std::stringstream readme;
+    readme << std::ifstream(BRUME_SOURCE_DIR "/README.md").rdbuf();
+    const std::string begin = "<!-- methods -->\n", end = "<!-- /methods -->";
+    const std::size_t first = readme.str().find(begin) + begin.size();
+    ASSERT_NE(first, std::string::npos + begin.size());
+    EXPECT_EQ(readme.str().substr(first, readme.str().find(end) - first),
+              runBrume({"list", "methods", "--markdown"}).out)
+        << "put the output of `brume list methods --markdown` there";
+}
+
 TEST_F(CommandLine, ErrorLine_HidesControlCharacters) {
     const Outcome outcome = runBrume({"inspect", "no\nsuch\x1b[31mfile.vdb"});
     expectUsageError(outcome);
@@ -203,6 +215,7 @@ TEST_F(CommandLine, InspectScene_ShowsItsParts) {
     const Outcome outcome = runBrume({"inspect", scene});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("smoke"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("needs"), std::string::npos) << outcome.out;
 }
 
 TEST_F(CommandLine, BrokenJson_IsRefusedWithItsPlace) {
@@ -241,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(Hard, VolumeFiles,
                                          "other_types.vdb", "shear.vdb", "tiles.vdb",
                                          "tiny_voxels.vdb", "truncated.vdb",
                                          "two_voxels_far_apart.vdb", "zero_length.vdb"),
-                         [](const auto& info) { return fs::path(info.param).stem().string(); });
+                         [](const auto& file) { return fs::path(file.param).stem().string(); });
 
 TEST_F(CommandLine, InspectUnreadableVolumes_AreRefused) {
     expectUsageError(runBrume({"inspect", path("missing.vdb")}));

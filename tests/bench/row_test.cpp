@@ -39,7 +39,8 @@ TEST(RowJson, WithoutComparison_HasExactlyTheContractKeys) {
     const Json json = Json::parse(toJson(makeRow()));
     EXPECT_EQ(keysOf(json),
               (std::set<std::string>{"scene", "method", "shadow", "settings", "size", "device",
-                                     "driver", "commit", "timeMs", "passes", "bytes", "counters"}));
+                                     "driver", "commit", "timeMs", "passes", "bytes", "counters",
+                                     "imageHash"}));
     EXPECT_EQ(keysOf(json["timeMs"]), (std::set<std::string>{"median", "p05", "p95", "repeats"}));
     EXPECT_EQ(json["size"], Json::parse("[4, 2]"));
     EXPECT_EQ(json["settings"]["budgetMiB"], "64");

@@ -3,7 +3,9 @@
 
 #include <app/commands/inspect.hpp>
 #include <app/console.hpp>
+#include <bench/prepare.hpp>
 #include <fstream>
+#include <render/needs.hpp>
 #include <scene/loader.hpp>
 #include <string>
 #include <volumes/vdb_file.hpp>
@@ -143,10 +145,11 @@ void printContent(const scene::Scene& s) {
 }
 
 void inspectScene(const std::filesystem::path& file, const Log& log) {
-    const scene::Scene s = scene::loadScene(file, log);
-    fmt::print("{}: scene, method {}\n", file.string(), s.render.method);
-    printLook(s);
-    printContent(s);
+    const render::PreparedScene prepared = bench::prepareScene(scene::loadScene(file, log), log);
+    fmt::print("{}: scene, method {}\n", file.string(), prepared.scene.render.method);
+    printLook(prepared.scene);
+    printContent(prepared.scene);
+    fmt::print("{}", render::describe(render::findNeeds(prepared)));
 }
 
 /// Scenes have no emitters, so the word tells the two kinds of JSON file apart.

@@ -134,8 +134,8 @@ void RenderCommand::renderOne(const std::filesystem::path& output) {
     const bench::Row& row = rendered.row;
     fmt::print("{}{}x{} {} {:.2f} ms on {}, image {:016x}{}{}\n",
                mArguments.output.empty() ? "" : output.string() + ": ", row.width, row.height,
-               row.method, row.time.median, row.device, row.imageHash, row.counters.empty() ? "" : ": ",
-               formatCounters(row.counters));
+               row.method, row.time.median, row.device, row.imageHash,
+               row.counters.empty() ? "" : ": ", formatCounters(row.counters));
     compare(rendered);
     mRows.push_back(std::move(rendered.row));
 }

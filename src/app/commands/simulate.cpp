@@ -6,7 +6,10 @@
 #include <bench/report.hpp>
 #include <chrono>
 #include <core/error.hpp>
+#include <gpu/submitter.hpp>
+#include <gpu/timer_pool.hpp>
 #include <particles/cpu_simulation.hpp>
+#include <particles/gpu_simulation.hpp>
 #include <scene/loader.hpp>
 
 namespace brume::app {
@@ -42,25 +45,64 @@ void takeCounters(const particles::Counters& counters, bench::SimulationRow& row
     row.rejected = counters.rejected;
 }
 
+double secondsAfter(const SimulateArguments& arguments, int frame) {
+    return frame * arguments.secondsPerFrame;
+}
+
+/// Calls advance(frame) for every frame; it returns the frame's time in ms.
+template <typename Advance>
+bench::TimeSummary advanceFrames(const SimulateArguments& arguments, const Advance& advance) {
+    std::vector<double> timesMs;
+    Progress progress("simulating");
+    for (int frame = 1; frame <= arguments.frames; ++frame) {
+        timesMs.push_back(advance(frame));
+        progress.update(static_cast<double>(frame) / arguments.frames);
+    }
+    return bench::summarise(timesMs);
+}
+
 bench::SimulationRow simulateOnCpu(const SimulateArguments& arguments,
                                    const scene::Effect& effect) {
     bench::SimulationRow row = describe(arguments);
     row.device = "CPU";
     particles::CpuSimulation simulation(effect, arguments.seed);
-    std::vector<double> timesMs;
-    Progress progress("simulating");
-    for (int frame = 1; frame <= arguments.frames; ++frame) {
+    row.time = advanceFrames(arguments, [&](int frame) {
         const auto start = std::chrono::steady_clock::now();
-        simulation.advanceTo(frame * arguments.secondsPerFrame);
-        const std::chrono::duration<double, std::milli> time =
-            std::chrono::steady_clock::now() - start;
-        timesMs.push_back(time.count());
-        progress.update(static_cast<double>(frame) / arguments.frames);
-    }
-    row.time = bench::summarise(timesMs);
+        simulation.advanceTo(secondsAfter(arguments, frame));
+        const auto end = std::chrono::steady_clock::now();
+        return std::chrono::duration<double, std::milli>(end - start).count();
+    });
     row.ticks = simulation.tick();
     row.hash = simulation.hash();
     takeCounters(simulation.counters(), row);
+    return row;
+}
+
+bench::SimulationRow simulateOnDevice(const SimulateArguments& arguments,
+                                      const scene::Effect& effect, const Log& log) {
+    const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
+    bench::SimulationRow row = describe(arguments);
+    row.device = device->info().name;
+    row.driver = device->info().driver;
+    {
+        gpu::Submitter submitter(*device);
+        gpu::TimerPool timers(*device);
+        particles::GpuSimulation simulation(*device, effect, arguments.seed);
+        row.time = advanceFrames(arguments, [&](int frame) {
+            submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+                timers.reset(commands);
+                const std::size_t scope = timers.begin(commands, "particles.simulate");
+                simulation.recordAdvanceTo(commands, secondsAfter(arguments, frame));
+                timers.end(commands, scope);
+            });
+            return timers.readTotalMs();
+        });
+        const particles::GpuSimulation::Snapshot state = simulation.readState(submitter);
+        row.ticks = state.tick;
+        row.hash = state.hash();
+        takeCounters(state.counters, row);
+    }
+    checkValidation(*device, log);
     return row;
 }
 
@@ -69,7 +111,8 @@ bench::SimulationRow simulateOnCpu(const SimulateArguments& arguments,
 void runSimulate(const SimulateArguments& arguments, const Log& log) {
     checkArguments(arguments);
     const scene::Effect effect = scene::loadEffect(arguments.effect, log);
-    const bench::SimulationRow row = simulateOnCpu(arguments, effect);
+    const bench::SimulationRow row = arguments.reference ? simulateOnCpu(arguments, effect)
+                                                         : simulateOnDevice(arguments, effect, log);
     fmt::print("{} of {:g} s on {}: alive {}, born {}, died {}, rejected {}, {:.3f} ms per frame\n",
                formatCount(static_cast<std::uint64_t>(row.frames), "frame"), row.secondsPerFrame,
                row.device, row.alive, row.born, row.died, row.rejected, row.time.median);
