@@ -55,6 +55,8 @@ TEST(ReferenceSolid, GlassBox_FollowsBeerLambertFromAnySide) {
     // From within: only what is left of it; mirrored: inside stays inside.
     expectNear(s.trace(dvec3(0.1, 0.2, 1.5)).radiance, glm::exp(-0.5 * glass.absorption));
     s.scene.meshes[0].worldFromObject = glm::scale(dmat4(1), dvec3(-1, 1, 1));
+    std::vector<std::uint32_t>& indices = s.scene.meshes[0].indices;  // wound in the world
+    for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
     expectNear(s.trace(dvec3(0.1, 0.2, -3)).radiance, glm::exp(-2.0 * glass.absorption));
     // Exactly through edges and corners: entered as often as left.
     for (const dvec2 xy : {dvec2(0, 0), dvec2(1, 0), dvec2(-1, -1), dvec2(1, 1), dvec2(0.5, 0.5)}) {
