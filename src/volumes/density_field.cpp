@@ -7,6 +7,8 @@ namespace brume::volumes {
 namespace {
 
 constexpr std::uint32_t kLeafItems = 4;
+/// The tree halves its items at each level: so many pending nodes are enough for 2^32 of them.
+constexpr std::size_t kStackSize = 64;
 
 std::array<double, 8> cornersOf(const VolumeGrid& grid, const Brick& brick, const ivec3& cell) {
     const float* v = grid.values.data() + brick.valueOffset +
@@ -221,8 +223,7 @@ void DensityField::visitItems(
     const IndexRay& ray, double t0, double t1,
     const std::function<void(std::uint32_t, double, double)>& visit) const {
     if (mNodes.empty()) return;
-    // The tree halves its items at each level: 64 pending nodes are enough for 2^32 of them.
-    std::array<std::uint32_t, 64> stack;
+    std::array<std::uint32_t, kStackSize> stack;
     std::size_t pending = 0;
     stack[pending++] = 0;
     while (pending > 0) {
@@ -261,17 +262,19 @@ double DensityField::opticalDepth(const IndexRay& ray, double t0, double t1) con
 }
 
 double DensityField::sample(const dvec3& p) const {
+    double sum = mGrid->boxes.empty() ? 0 : sampleBoxes(p);
+    const dvec3 cell = glm::floor(p);
+    constexpr double kLimit = 2147483647.0;
+    if (mGrid->bricks.empty() || !glm::all(glm::lessThan(glm::abs(cell), dvec3(kLimit))))
+        return sum;
+    const std::uint32_t brick = mIndex.findCell(ivec3(cell));
+    if (brick != BrickIndex::kNone) sum += sampleBrick(*mGrid, mGrid->bricks[brick], p);
+    return sum;
+}
+
+double DensityField::sampleBoxes(const dvec3& p) const {
     double sum = 0;
-    if (!mGrid->bricks.empty()) {
-        const dvec3 cell = glm::floor(p);
-        constexpr double kLimit = 2147483647.0;
-        if (glm::all(glm::lessThan(glm::abs(cell), dvec3(kLimit)))) {
-            const std::uint32_t brick = mIndex.findCell(ivec3(cell));
-            if (brick != BrickIndex::kNone) sum += sampleBrick(*mGrid, mGrid->bricks[brick], p);
-        }
-    }
-    if (mGrid->boxes.empty()) return sum;
-    std::array<std::uint32_t, 64> stack;
+    std::array<std::uint32_t, kStackSize> stack;
     std::size_t pending = 0;
     stack[pending++] = 0;
     while (pending > 0) {

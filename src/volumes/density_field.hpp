@@ -80,6 +80,7 @@ class DensityField {
         std::uint32_t count = 0;  ///< 0 for an inner node
     };
 
+    double sampleBoxes(const dvec3& p) const;
     void build(std::uint32_t begin, std::uint32_t end);
     void boundsOf(std::uint32_t item, dvec3& lo, dvec3& hi) const;
 

@@ -121,24 +121,14 @@ struct VdbChecker::Walk {
 };
 
 VdbDirectory VdbChecker::checkDirectory() {
-    if (mFile.size() < sizeof(kMagic) || mFile.read<std::int64_t>() != kMagic)
-        throw MalformedFile("not an OpenVDB file (wrong first bytes)");
-    const auto version = mFile.read<std::uint32_t>();
-    if (version < kOldestVersion || version > kNewestVersion)
-        throw MalformedFile(fmt::format("the file has format version {}, {} to {} can be read",
-                                        version, kOldestVersion, kNewestVersion));
-    mFile.skip(2 * sizeof(std::uint32_t));  // version of the library that wrote it
     VdbDirectory directory;
-    directory.hasOffsets = mFile.read<char>() != 0;
-    mFile.skip(kUuidBytes);
-    checkMetadata();
+    directory.hasOffsets = checkHead();
     const auto count = mFile.read<std::int32_t>();
     if (count < 0) throw MalformedFile(fmt::format("the file is damaged: it has {} grids", count));
     std::set<std::string> names;
     for (std::int32_t i = 0; i < count; ++i) {
         std::uint64_t end = 0;
-        directory.grids.push_back(checkDescriptor(end));
-        const VdbEntry& entry = directory.grids.back();
+        VdbEntry entry = checkDescriptor(end);
         if (!names.insert(entry.uniqueName).second)
             throw MalformedFile("the file is damaged: two grids have one unique name");
         if (directory.hasOffsets) {
@@ -147,15 +137,33 @@ VdbDirectory VdbChecker::checkDirectory() {
                     "the file is damaged: grid \"{}\" points to byte {}", entry.name, end));
             mFile.seek(end);
         } else {
-            directory.grids.back().position = mFile.position();
-            if (!entry.isKnown)
-                throw MalformedFile(fmt::format(
-                    "grid \"{}\" has values of type {} and the file has no offsets to pass over it",
-                    entry.name, entry.type));
+            entry.position = mFile.position();
+            requireKnown(entry);
             checkGridData(entry);
         }
+        directory.grids.push_back(std::move(entry));
     }
     return directory;
+}
+
+bool VdbChecker::checkHead() {
+    if (mFile.size() < sizeof(kMagic) || mFile.read<std::int64_t>() != kMagic)
+        throw MalformedFile("not an OpenVDB file (wrong first bytes)");
+    const auto version = mFile.read<std::uint32_t>();
+    if (version < kOldestVersion || version > kNewestVersion)
+        throw MalformedFile(fmt::format("the file has format version {}, {} to {} can be read",
+                                        version, kOldestVersion, kNewestVersion));
+    mFile.skip(2 * sizeof(std::uint32_t));  // version of the library that wrote it
+    const bool hasOffsets = mFile.read<char>() != 0;
+    mFile.skip(kUuidBytes);
+    checkMetadata();
+    return hasOffsets;
+}
+
+void VdbChecker::requireKnown(const VdbEntry& entry) {
+    if (!entry.isKnown)
+        throw MalformedFile(fmt::format("grid \"{}\" has values of type {}, which cannot be read",
+                                        entry.name, entry.type));
 }
 
 VdbEntry VdbChecker::checkDescriptor(std::uint64_t& end) {
@@ -178,7 +186,7 @@ VdbEntry VdbChecker::checkDescriptor(std::uint64_t& end) {
 }
 
 void VdbChecker::checkGrid(const VdbDirectory& directory, const VdbEntry& entry) {
-    if (!entry.isKnown) throw MalformedFile("values of type " + entry.type + " cannot be read");
+    requireKnown(entry);
     mFile.seek(entry.position);
     checkGridData(entry);
     if (entry.parent.empty()) return;

@@ -46,6 +46,8 @@ class VdbChecker {
     struct ValueType;
     struct Walk;
 
+    bool checkHead();
+    static void requireKnown(const VdbEntry& entry);
     VdbEntry checkDescriptor(std::uint64_t& end);
     void checkMetadata();
     void checkDelayedLoad(std::uint32_t bytes);
