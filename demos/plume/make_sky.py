@@ -7,20 +7,20 @@ Run it in this folder: python3 make_sky.py. Latitude-longitude map, half floats,
 import math
 import struct
 
-WIDTH, HEIGHT = 32, 512
-ZENITH = (0.004, 0.009, 0.030)
-HAZE = (0.030, 0.075, 0.135)  # blue band above the afterglow
-GLOW = (0.62, 0.20, 0.075)  # on the horizon, where the sun went down
-SUN_AZIMUTH = math.radians(26)  # from -Z towards +X
+WIDTH, HEIGHT = 64, 512
+ZENITH = (0.003, 0.007, 0.026)
+HAZE = (0.045, 0.115, 0.21)  # blue band above the afterglow
+GLOW = (1.35, 0.47, 0.16)  # on the horizon, where the sun went down
+SUN_AZIMUTH = math.radians(7)  # from -Z towards +X
 
 
 def radiance(u, v):
     elevation = 90 - 180 * v
     azimuth = (u - 0.5) * 2 * math.pi
     up = max(elevation, 0)
-    towards = 0.5 + 0.5 * math.cos(azimuth - SUN_AZIMUTH)
-    haze = math.exp(-up / 11) * (0.35 + 0.65 * towards**4)
-    glow = math.exp(-up / 3.6) * towards**10
+    off = math.degrees(azimuth - SUN_AZIMUTH)
+    haze = math.exp(-up / 10) * (0.25 + 0.75 * math.exp(-((off / 30) ** 2)))
+    glow = math.exp(-up / 4.2) * math.exp(-((off / 17) ** 2))
     return [z + haze * h + glow * g for z, h, g in zip(ZENITH, HAZE, GLOW)]
 
 
