@@ -6,35 +6,36 @@
 
 layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
 
-// The ray in the local coordinates of a box.
+// The ray in the local coordinates of a box, from some position on.
 struct LocalRay {
     vec3 origin, direction;
 };
 
-LocalRay localRay(Ray ray, BoxData box, VolumeData volume) {
-    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner),
-                    volume.indexFromWorld * ray.direction);
+LocalRay localRay(Ray ray, BoxData box, VolumeData volume, float position) {
+    vec3 direction = volume.indexFromWorld * ray.direction;
+    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner) + direction * position,
+                    direction);
 }
 
-// The next distance behind `position` at which the ray crosses a plane between cells.
-float nextPlane(BoxData box, LocalRay local, float position) {
+// The next offset behind `offset` at which the ray crosses a plane between cells.
+float nextPlane(BoxData box, LocalRay local, float offset) {
     float nearest = 1e30;
     for (int axis = 0; axis < 3; ++axis) {
         float o = local.origin[axis], d = local.direction[axis], size = box.size[axis];
         if (abs(d) < 1e-30) continue;
         if (box.kind == kBoxBrick) {
-            float cell = floor(o + d * position), step = d > 0.0 ? 1.0 : -1.0;
-            float plane = d > 0.0 ? cell + 1.0 : ceil(o + d * position) - 1.0;
+            float cell = floor(o + d * offset), step = d > 0.0 ? 1.0 : -1.0;
+            float plane = d > 0.0 ? cell + 1.0 : ceil(o + d * offset) - 1.0;
             float t = (plane - o) / d;
             // Standing on the plane within rounding: take the one behind it.
-            float slack = 2e-6 / abs(d) + 2e-7 * position;
-            if (t <= position + slack) t = (plane + step - o) / d;
+            float slack = 2e-6 / abs(d) + 2e-7 * offset;
+            if (t <= offset + slack) t = (plane + step - o) / d;
             nearest = min(nearest, t);
         } else if (box.kind == kBoxSoft) {
             float inner = (1.0 - o) / d, outer = (size - 1.0 - o) / d;
-            float slack = 2e-7 * position;
-            if (inner > position + slack) nearest = min(nearest, inner);
-            if (outer > position + slack) nearest = min(nearest, outer);
+            float slack = 2e-7 * offset;
+            if (inner > offset + slack) nearest = min(nearest, inner);
+            if (outer > offset + slack) nearest = min(nearest, outer);
         }
     }
     return nearest;
@@ -57,6 +58,7 @@ float trilinear(vec4 low, vec4 high, vec3 f) {
     return mix(y.x, y.y, f.x);
 }
 
+// At three offsets, within one cell.
 vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
     if (box.kind == kBoxHard) return vec3(box.value);
     vec3 densities;
@@ -77,14 +79,18 @@ vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
     return densities;
 }
 
-vec3 sphereDensities(Ray ray, SphereData sphere, vec3 t) {
+// At three offsets behind `position`. From the distances to both ends of the chord, so that the
+// density keeps its digits near them.
+vec3 sphereDensities(Ray ray, SphereData sphere, float position, vec3 offsets) {
     if (sphere.profile == kProfileConstant) return vec3(sphere.density);
-    vec3 offset = sphere.center - ray.origin;
-    float middle = dot(offset, ray.direction);
-    vec3 perpendicular = offset - middle * ray.direction;
-    float inverse = 1.0 / (sphere.radius * sphere.radius);
-    vec3 q =
-        max(1.0 - (dot(perpendicular, perpendicular) + (t - middle) * (t - middle)) * inverse, 0.0);
+    precise vec3 offset = sphere.center - ray.origin;
+    precise float middle = dot(offset, ray.direction);
+    precise vec3 perpendicular = offset - middle * ray.direction;
+    precise float h2 = sphere.radius * sphere.radius - dot(perpendicular, perpendicular);
+    precise float h = sqrt(max(h2, 0.0));
+    precise float enter = middle - h, leave = middle + h;
+    precise float behind = position - enter, ahead = leave - position;
+    vec3 q = max((behind + offsets) * (ahead - offsets), 0.0) / (sphere.radius * sphere.radius);
     return sphere.density * q * q;
 }
 

@@ -76,7 +76,7 @@ const MethodInfo& info() {
         .paper = "Barta, Kovacs: Order Independent Transparency with Per-Pixel Linked Lists, 2011",
         .exactness = Exactness::Exact,
         .passes = "1 compute (media) and 1 raster (surfaces), each twice: count, store; 1 resolve",
-        .bytesPerPixel = "12 + 8 n + 56 s for n medium intervals and s surface fragments",
+        .bytesPerPixel = "16 + 8 n + 56 s for n medium intervals and s surface fragments",
         .limits = "one screen tile's lists must fit into the budget",
         .settings = {{"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for list entries and surface records; beyond it, the screen is "
@@ -104,7 +104,6 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
       mTileCount(countTiles(inputs.extent)),
       mBins(device, "oit.linked_list", inputs),
       mPrefixSum(device) {
-    const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces};
     const auto mediaAnd = [](std::vector<gpu::Binding> more) {
         return join(mediaBindings(), more);
@@ -113,13 +112,7 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
                               mediaAnd({kOpaqueT}), mediaUsed);
     mStore = makeListPipeline(device, "store", spv::oit_linked_list_store_comp,
                               mediaAnd({kOpaqueT}), mediaUsed);
-    mResolve =
-        makeListPipeline(device, "resolve", spv::oit_linked_list_resolve_comp,
-                         mediaAnd({kOpaqueT,
-                                   {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-                                   {shader::kBindingResult, gpu::BindingType::StorageImage}}),
-                         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight,
-                          mNeeds.colouredExtinction, mNeeds.media <= shader::kKeptMedia});
+    mResolve = makeResolve();
     mTotals =
         makeListPipeline(device, "totals", spv::oit_linked_list_totals_comp, {}, {mNeeds.surfaces});
     if (mNeeds.surfaces) {
@@ -136,6 +129,17 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
     mTileTotalsRead = makeBuffer(device, "tile_totals_read", totalBytes, gpu::MemoryKind::Readback);
 }
 
+gpu::ComputePipeline LinkedList::makeResolve() const {
+    const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
+    return makeListPipeline(
+        *mDevice, "resolve", spv::oit_linked_list_resolve_comp,
+        join(mediaBindings(), {kOpaqueT,
+                               {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+                               {shader::kBindingResult, gpu::BindingType::StorageImage}}),
+        {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
+         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia});
+}
+
 const MethodInfo& LinkedList::info() const { return linked_list::info(); }
 
 void LinkedList::prepare(const MeasureFunction& measure) {
@@ -144,6 +148,8 @@ void LinkedList::prepare(const MeasureFunction& measure) {
         mBins.declareTotals(frame);
     });
     mBins.allocate();
+    mSliceCount =
+        std::max((mBins.longestList() + shader::kMediaPerSlice - 1) / shader::kMediaPerSlice, 1u);
     const Band whole{.firstTile = 0, .tileCount = mTileCount};
     mBands = {whole};
     allocateForBands();
@@ -155,6 +161,23 @@ void LinkedList::prepare(const MeasureFunction& measure) {
     });
     planBands();
     allocateForBands();
+    planRounds(measure);
+}
+
+void LinkedList::planRounds(const MeasureFunction& measure) {
+    // So many constant media never need more: each enters and leaves once, and moves the others.
+    constexpr std::uint64_t kAlwaysOneRound = 100;
+    if (!mNeeds.varyingDensity && !mNeeds.varyingLight && mLongest <= kAlwaysOneRound) return;
+    constexpr std::uint32_t kMaxRounds = 4096;
+    for (;;) {
+        measure(
+            [this](frame::FrameBuilder& frame, const Inputs& inputs) { declare(frame, inputs); });
+        if (counters().at("exhausted") == 0 || mRoundCount >= kMaxRounds) return;
+        mRoundCount *= 2;
+        mResolve = makeResolve();
+        mStates =
+            makeBuffer(*mDevice, "states", mProgress.bytes() / 4 * sizeof(shader::PixelState));
+    }
 }
 
 void LinkedList::planBands() {
@@ -199,6 +222,7 @@ void LinkedList::allocateForBands() {
     mSurfaceOffsets =
         makeBuffer(*mDevice, "surface_offsets", mNeeds.surfaces ? 4ull * (pixels + 1) : 0);
     mSurfaceCursors = makeBuffer(*mDevice, "surface_cursors", mNeeds.surfaces ? 4ull * pixels : 0);
+    mProgress = makeBuffer(*mDevice, "progress", 4ull * pixels);
     mEntries = makeBuffer(*mDevice, "entries", largest.entryCount * kEntryBytes);
     mRecords = makeBuffer(*mDevice, "records", largest.recordCount * sizeof(shader::SurfaceRecord));
     mBandTotals = makeBuffer(*mDevice, "band_totals", 4 * mBands.size());
@@ -218,7 +242,10 @@ shader::ListPush LinkedList::makePush(const Band& band) const {
             .spherePairs = mBins.spheres().pairs,
             .boxOffsets = mBins.boxes().offsets,
             .boxPairs = mBins.boxes().pairs,
-            .counters = mCounters.deviceAddress()};
+            .counters = mCounters.deviceAddress(),
+            .progress = mProgress.deviceAddress(),
+            .states = mRoundCount > 1 ? mStates.deviceAddress() : 0,
+            .roundCount = mRoundCount};
 }
 
 void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
@@ -246,11 +273,13 @@ void LinkedList::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
 
 void LinkedList::declareClear(frame::FrameBuilder& frame, const Band& band) {
     frame::PassBuilder& pass = frame.addPass("oit.linked_list.clear");
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mCounters})
+    for (const gpu::Buffer* buffer :
+         {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mProgress, &mCounters})
         pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
     pass.record([this, isFirst = band.firstTile == 0](gpu::Commands& commands,
                                                       const frame::PassResources&) {
         commands.fillBuffer(mOffsets, 0);
+        commands.fillBuffer(mProgress, 0);
         if (mNeeds.surfaces) {
             commands.fillBuffer(mSurfaceOffsets, 0);
             commands.fillBuffer(mSurfaceCursors, 0);
@@ -264,7 +293,7 @@ void LinkedList::declareCount(frame::FrameBuilder& frame, const Inputs& inputs, 
     if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "count", mSurfaceCount);
     frame::PassBuilder& pass = frame.addPass("oit.linked_list.count");
     pass.reads(frame.importBuffer(mSurfaceOffsets), Access::ComputeRead);
-    pass.writes(frame.importBuffer(mOffsets), Access::ComputeWrite);
+    pass.readsWrites(frame.importBuffer(mOffsets), Access::ComputeWrite);
     declareMedia(frame, inputs, band, pass, mCount);
 }
 
@@ -279,8 +308,14 @@ void LinkedList::declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, 
         bindMedia(commands, inputs, mBins.sortedSpheres());
         commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                       *inputs.texelSampler);
-        commands.pushConstants(makePush(band));
-        commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize, kTilePixels);
+        shader::ListPush push = makePush(band);
+        for (std::uint32_t slice = 0; slice < mSliceCount; ++slice) {
+            if (slice > 0) commands.computeBarrier();  // the slice before it writes the same lists
+            push.firstMedium = slice * shader::kMediaPerSlice;
+            commands.pushConstants(push);
+            commands.dispatchThreads(std::uint64_t{band.tileCount} * shader::kTileSize,
+                                     kTilePixels);
+        }
     });
 }
 
@@ -328,7 +363,8 @@ void LinkedList::declareScan(frame::FrameBuilder& frame, const Band& band) {
 void LinkedList::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
     frame::PassBuilder& pass = frame.addPass("oit.linked_list.store");
     pass.reads(frame.importBuffer(mOffsets), Access::ComputeRead);
-    pass.writes(frame.importBuffer(mEntries), Access::ComputeWrite);
+    for (const gpu::Buffer* buffer : {&mEntries, &mProgress})
+        pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     declareMedia(frame, inputs, band, pass, mStore);
     if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
 }
@@ -339,10 +375,11 @@ void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mRecords})
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mRecords, &mProgress})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     for (const gpu::Buffer* buffer : {&mEntries, &mCounters})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
+    if (mRoundCount > 1) pass.readsWrites(frame.importBuffer(mStates), Access::ComputeWrite);
     // Each band writes its own pixels of the image.
     if (band.firstTile == 0)
         pass.writes(inputs.result, Access::ComputeWrite);
@@ -358,8 +395,12 @@ void LinkedList::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
             commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
                           *inputs.texelSampler);
             commands.bind(shader::kBindingResult, resources.image(inputs.result));
-            commands.pushConstants(makePush(band));
-            commands.dispatchThreads(std::uint64_t{band.tileCount} * kTilePixels, kTilePixels);
+            shader::ListPush push = makePush(band);
+            for (push.round = 0; push.round < push.roundCount; ++push.round) {
+                if (push.round > 0) commands.computeBarrier();  // states of the round before it
+                commands.pushConstants(push);
+                commands.dispatchThreads(std::uint64_t{band.tileCount} * kTilePixels, kTilePixels);
+            }
         });
 }
 
@@ -387,13 +428,15 @@ std::map<std::string, std::uint64_t> LinkedList::counters() {
     }
     return {{"stored", stored},        {"surfaces", mSurfacesStored},
             {"dropped", dropped},      {"bands", mBands.size()},
-            {"longestList", mLongest}, {"exhausted", counters.exhausted}};
+            {"longestList", mLongest}, {"exhausted", counters.exhausted},
+            {"rounds", mRoundCount}};
 }
 
 std::map<std::string, std::uint64_t> LinkedList::bytes() const {
     return {{"lists", mEntries.bytes() + mRecords.bytes()},
-            {"listOffsets",
-             mOffsets.bytes() + mSums.bytes() + mSurfaceOffsets.bytes() + mSurfaceCursors.bytes()},
+            {"listOffsets", mOffsets.bytes() + mSums.bytes() + mSurfaceOffsets.bytes() +
+                                mSurfaceCursors.bytes() + mProgress.bytes()},
+            {"listStates", mStates.bytes()},
             {"bins", mBins.bytes()}};
 }
 

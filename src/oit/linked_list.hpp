@@ -3,16 +3,17 @@
 //       intervals, sorted by distance and integrated front to back; overlapping media add up.
 // Source: P. Barta, B. Kovacs: "Order Independent Transparency with Per-Pixel Linked Lists",
 //         Central European Seminar on Computer Graphics, 2011.
-// Equations: section 2 -> crossConstant(), crossVarying(); section 3.5 -> resolveConstant(),
+// Equations: section 2 -> crossConstant(), crossVarying(); section 3.5 -> walkConstant(),
 //         findSolidsAroundEye().
 // Differs: sums of extinction and source with an integer count of open media instead of running
 //         albedo quotients (those give 0/0 in free space and leave a residue that hides the sky);
 //         a list is a contiguous array, counted before it is stored, so that its memory is known
 //         and nothing is lost; media are found per screen tile in compute and stored as 8 bytes
 //         (distance, index), from which the resolve intersects again; only triangles are rastered.
-// Limits: a device that caps loop iterations per invocation limits the overlap depth of varying
-//         media at a pixel (counter "exhausted" > 0: the image is not exact there).
-// Cost: 8 bytes per interval and surface, 48 more per surface, 12 per pixel and band.
+// Limits: more than some ten thousand varying media open at once at a pixel exceed what devices
+//         that cap loop iterations do in one dispatch (counter "exhausted" > 0: not exact there).
+// Cost: 8 bytes per interval and surface, 48 more per surface, 16 per pixel and band; where lists
+//         need several rounds to resolve, 200 more per pixel and band.
 #pragma once
 
 #include <oit/media_bins.hpp>
@@ -46,6 +47,9 @@ class LinkedList final : public OitMethod {
     };
 
     void planBands();
+    /// Finds out in how many rounds the longest list is resolved.
+    void planRounds(const MeasureFunction& measure);
+    gpu::ComputePipeline makeResolve() const;
     void allocateForBands();
     void declareClear(frame::FrameBuilder& frame, const Band& band);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
@@ -70,7 +74,9 @@ class LinkedList final : public OitMethod {
     gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
     std::vector<Band> mBands;
     std::uint64_t mSurfacesStored = 0, mLongest = 0;
-    gpu::Buffer mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mEntries, mRecords;
+    std::uint32_t mSliceCount = 1, mRoundCount = 1;
+    gpu::Buffer mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mProgress, mEntries, mRecords;
+    gpu::Buffer mStates;
     gpu::Buffer mCounters, mCountersRead, mTileTotals, mTileTotalsRead;
     gpu::Buffer mBandTotals, mBandTotalsRead;
 };

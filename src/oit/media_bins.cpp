@@ -76,8 +76,10 @@ MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
     set.cursors = makeUints(device, name + ".cursors", mTileCount);
     set.sums = makeUints(device, name + ".sums", gpu::PrefixSum::sumCount(mTileCount + 1));
     set.pairs = makeUints(device, name + ".pairs", 1);
-    set.total = {device,
-                 {.name = name + ".total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
+    set.offsetsRead = {device,
+                       {.name = name + ".offsets_read",
+                        .bytes = 4ull * (mTileCount + 1),
+                        .memory = gpu::MemoryKind::Readback}};
     return set;
 }
 
@@ -163,17 +165,21 @@ void MediaBins::declareTotals(frame::FrameBuilder& frame) {
     frame::PassBuilder& pass = frame.addPass(mName + ".totals");
     for (const Set* set : {&mSpheres, &mBoxes}) {
         pass.reads(frame.importBuffer(set->offsets), Access::TransferRead);
-        pass.writes(frame.importBuffer(set->total), Access::TransferWrite);
+        pass.writes(frame.importBuffer(set->offsetsRead), Access::TransferWrite);
     }
     pass.record([this](gpu::Commands& commands, const frame::PassResources&) {
         for (const Set* set : {&mSpheres, &mBoxes})
-            commands.copyBuffer(set->offsets, set->total, 4, 4ull * mTileCount);
+            commands.copyBuffer(set->offsets, set->offsetsRead, 4ull * (mTileCount + 1));
     });
 }
 
 void MediaBins::allocate() {
     for (Set* set : {&mSpheres, &mBoxes}) {
-        set->pairCount = set->total.mappedAs<std::uint32_t>()[0];
+        const auto offsets = set->offsetsRead.mappedAs<std::uint32_t>();
+        set->pairCount = offsets[mTileCount];
+        set->longest = 0;
+        for (std::uint32_t tile = 0; tile < mTileCount; ++tile)
+            set->longest = std::max(set->longest, offsets[tile + 1] - offsets[tile]);
         const std::string name = set->pairs.name();
         set->pairs = makeUints(*mDevice, name, set->pairCount);
     }

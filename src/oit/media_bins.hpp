@@ -6,6 +6,7 @@
 #include <gpu/radix_sort.hpp>
 #include <oit/inputs.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace brume::oit {
@@ -19,7 +20,7 @@ class MediaBins {
 
     /// Pass "<name>.bin": sorts, and counts how many media touch each tile.
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
-    /// Copies the totals to the host; after that frame, allocate() makes room for the lists.
+    /// Copies the counts to the host; after that frame, allocate() makes room for the lists.
     void declareTotals(frame::FrameBuilder& frame);
     void allocate();
     /// Pass "<name>.scatter": fills the tiles' lists.
@@ -36,13 +37,16 @@ class MediaBins {
     List spheres() const { return listOf(mSpheres); }
     List boxes() const { return listOf(mBoxes); }
     std::uint64_t pairCount() const { return mSpheres.pairCount + mBoxes.pairCount; }
+    /// Spheres or boxes of the tile that has most of them.
+    std::uint32_t longestList() const { return std::max(mSpheres.longest, mBoxes.longest); }
     std::uint64_t bytes() const;
 
   private:
     struct Set {
         std::uint32_t count = 0;
-        gpu::Buffer rects, offsets, cursors, sums, pairs, total;
+        gpu::Buffer rects, offsets, cursors, sums, pairs, offsetsRead;
         std::uint64_t pairCount = 0;
+        std::uint32_t longest = 0;
     };
     static List listOf(const Set& set) {
         return {set.offsets.deviceAddress(), set.pairs.deviceAddress()};

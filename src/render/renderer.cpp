@@ -75,12 +75,17 @@ struct Renderer::Impl {
             [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
-    /// What every frame begins with: particles, background, opaque meshes.
+    /// What every frame begins with: particles, background, opaque meshes, and room for the result.
     oit::Inputs declareInputs(frame::FrameBuilder& frame) {
         oit::Inputs inputs = scene.makeInputs();
         inputs.spheres = frame.importBuffer(scene.spheres());
         if (!areSpheresFinal) effects.declare(frame, scene, inputs.spheres);
         opaque.declare(frame, scene, inputs);
+        inputs.result = frame.createImage({.name = "render.result",
+                                           .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                           .width = inputs.extent.width,
+                                           .height = inputs.extent.height,
+                                           .usage = 0});
         return inputs;
     }
 
@@ -93,11 +98,6 @@ struct Renderer::Impl {
 
     void declareFrame(frame::FrameBuilder& frame) {
         oit::Inputs inputs = declareInputs(frame);
-        inputs.result = frame.createImage({.name = "render.result",
-                                           .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                           .width = inputs.extent.width,
-                                           .height = inputs.extent.height,
-                                           .usage = 0});
         method->declare(frame, inputs);
         if (options.triangleHashes) {
             opaque.declareTriangles(frame, scene, inputs, triangles);

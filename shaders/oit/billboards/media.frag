@@ -23,7 +23,7 @@ const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
 
 // Integral of the density over [t.x, t.y].
 float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
-    LocalRay local = localRay(ray, box, volume);
+    LocalRay local = localRay(ray, box, volume, 0.0);
     float sum = 0.0, position = t.x;
     for (int i = 0; i < 64 && position < t.y; ++i) {
         float target = min(nextPlane(box, local, position), t.y);
@@ -42,7 +42,7 @@ void main() {
     if (kBoxes && kind.z != 0u) {
         BoxData box = boxes[kind.z - 1u];
         VolumeData volume = volumes[box.volume];
-        LocalRay local = localRay(ray, box, volume);
+        LocalRay local = localRay(ray, box, volume, 0.0);
         if (!intersectBox(local.origin, local.direction, box.size, t) || t.x >= limit) discard;
         t.y = min(t.y, limit);
         densityLength = boxDensityLength(ray, box, volume, t);
@@ -55,7 +55,7 @@ void main() {
         t.y = min(t.y, limit);
         densityLength =
             (t.y - t.x) *
-            (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x + (t.y - t.x) * kNodes))
+            (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x, (t.y - t.x) * kNodes))
                       : sphere.density);
     }
     MediumData medium = media[kind.x];

@@ -56,16 +56,17 @@ void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float e
         tint = sphere.tint;
     }
     end = t.y;
+    iterations += kFewMedia ? 0u : frame.lightCount;
     RayMedium medium = findRayMedium(mediumIndex);
     extinction = medium.extinction * density;
     source = tint * density * medium.source;
 }
 
-// The open intervals' ends, sorted, live in list[head .. tail): the entries there are used up.
-// Equal spheres end in the order in which they begin, so that most ends are appended.
-void insertEnd(uint head, uint tail, uvec2 end) {
-    uint slot = tail;
-    while (slot > head) {
+// The open intervals' ends, sorted, live in list[state.open .. state.medium): the entries there are
+// used up. Equal spheres end in the order in which they begin, so that most ends are appended.
+void insertEnd(uvec2 end) {
+    uint slot = state.medium;
+    while (slot > state.open) {
         uvec2 previous = loadEntry(slot - 1u);
         ++iterations;
         if (previous.x <= end.x) break;
@@ -75,63 +76,62 @@ void insertEnd(uint head, uint tail, uvec2 end) {
     storeEntry(slot, end);
 }
 
-void resolveConstant(inout Path path, Solids solids, float limit) {
-    vec3 extinctionHi = vec3(0), extinctionLo = vec3(0), sourceHi = vec3(0), sourceLo = vec3(0);
-    uint head = 0u, next = 0u;  // open ends: [head, next); unread entries: [next, count)
-    float position = 0.0;
+void enterMedium(uvec2 entry) {
+    vec3 extinction, source;
+    float end;
+    loadInterval(entry, extinction, source, end);
+    addToSums(state.media, 1.0, extinction, source);
+    insertEnd(uvec2(distanceKey(end), entry.y));
+    ++state.medium;
+}
+
+void leaveMedium(uvec2 entry) {
+    vec3 extinction, source;
+    float end;
+    loadInterval(entry, extinction, source, end);
+    addToSums(state.media, -1.0, extinction, source);
+    ++state.open;
+}
+
+void crossTo(float event, vec3 solidLight) {
+    vec3 extinction = state.media.extinctionHi + state.media.extinctionLo;
+    vec3 source = state.media.sourceHi + state.media.sourceLo;
+    if (kSurfaces) {
+        extinction += state.solids.extinctionHi + state.solids.extinctionLo;
+        source += (state.solids.sourceHi + state.solids.sourceLo) * solidLight;
+    }
+    crossConstant(state.path, extinction, source, max(event - state.position, 0.0));
+    state.position = max(state.position, event);
+}
+
+// From where the state says to the end of the ray, or of the round.
+void walkConstant(float limit) {
     keepMedia();
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
     vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, vec3(0), ray.direction) : vec3(0);
-    uvec2 entry = next < count ? loadEntry(next) : uvec2(0);
-    uvec2 end = uvec2(floatBitsToUint(kFar), 0u);
-    while (iterations < kMaxIterations) {
+    uvec2 enter = mediumEntry(), surface = surfaceEntry();
+    uvec2 leave = state.open < state.medium ? loadEntry(state.open) : kNoEntry;
+    while (iterations <= kIterationsPerRound) {
         ++iterations;
-        float enter = next < count ? uintBitsToFloat(entry.x) : kFar;
-        float leave = head < next ? uintBitsToFloat(end.x) : kFar;
-        float event = min(min(enter, leave), limit);
-        vec3 extinction = extinctionHi + extinctionLo, source = sourceHi + sourceLo;
-        if (kSurfaces) {
-            vec3 scattering = solids.scatteringHi + solids.scatteringLo;
-            extinction += solids.extinctionHi + solids.extinctionLo;
-            source += scattering * solidLight;
+        float event = min(uintBitsToFloat(min(min(enter.x, leave.x), surface.x)), limit);
+        crossTo(event, solidLight);
+        if (event >= limit || isOpaque(state.path)) {
+            state.stage = kStageDone;
+            break;
         }
-        crossConstant(path, extinction, source, max(event - position, 0.0));
-        position = max(position, event);
-        if (event >= limit || isOpaque(path)) break;
-
-        bool isEnter = enter <= leave;
-        uvec2 current = isEnter ? entry : end;
-        if (kSurfaces && isEnter && (entry.y >> kKindShift) == kKindSurface) {
-            SurfaceRecord record = loadRecord(entry);
-            if (record.face == kFaceThin)
-                crossThin(path, record);
-            else
-                crossSolid(solids, record);
-            // The slot of the surface joins the free ones: move the open ends over it.
-            for (uint i = next; i > head; --i) storeEntry(i, loadEntry(i - 1u));
-            ++head;
-            ++next;
-            entry = next < count ? loadEntry(next) : uvec2(0);
+        if (kSurfaces && surface.x < min(enter.x, leave.x)) {
+            crossSurface(state.path, state.solids, loadRecord(surface));
+            ++state.surface;
+            surface = surfaceEntry();
             continue;
         }
-        vec3 intervalExtinction, intervalSource;
-        float intervalEnd;
-        loadInterval(current, intervalExtinction, intervalSource, intervalEnd);
-        float sign = isEnter ? 1.0 : -1.0;
-        addExactly(extinctionHi, extinctionLo, sign * intervalExtinction);
-        addExactly(sourceHi, sourceLo, sign * intervalSource);
-        if (isEnter) {
-            insertEnd(head, next, uvec2(floatBitsToUint(intervalEnd), current.y));
-            ++next;
-            entry = next < count ? loadEntry(next) : uvec2(0);
+        if (enter.x <= leave.x) {
+            enterMedium(enter);
+            enter = mediumEntry();
         } else {
-            ++head;
+            leaveMedium(leave);
         }
-        if (head == next) {
-            extinctionHi = extinctionLo = sourceHi = sourceLo = vec3(0);
-        } else {
-            end = loadEntry(head);
-        }
+        leave = state.open < state.medium ? loadEntry(state.open) : kNoEntry;
     }
 }
 

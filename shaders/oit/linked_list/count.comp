@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the medium intervals of each pixel and adds the surfaces counted before.
+// Counts the medium intervals of each pixel, a slice of the media at a time, and adds the surfaces
+// counted before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "media.glsl"
@@ -11,16 +12,18 @@ void main() {
     for (uint row = 0u; row < kRows; ++row) counts[row] = 0u;
     vec2 t;
     if (kSpheres) {
+        uint k = UintArray(push.sphereOffsets).at[tile];
         uint last = UintArray(push.sphereOffsets).at[tile + 1u];
-        for (uint k = UintArray(push.sphereOffsets).at[tile]; k < last; ++k) {
+        for (sliceMedia(k, last); k < last; ++k) {
             SphereData sphere = spheres[UintArray(push.spherePairs).at[k]];
             for (uint row = 0u; row < kRows; ++row)
                 counts[row] += hitsSphere(sphere, row, t) ? 1u : 0u;
         }
     }
     if (kBoxes) {
+        uint k = UintArray(push.boxOffsets).at[tile];
         uint last = UintArray(push.boxOffsets).at[tile + 1u];
-        for (uint k = UintArray(push.boxOffsets).at[tile]; k < last; ++k) {
+        for (sliceMedia(k, last); k < last; ++k) {
             BoxData box = boxes[UintArray(push.boxPairs).at[k]];
             VolumeData volume = volumes[box.volume];
             for (uint row = 0u; row < kRows; ++row)
@@ -29,7 +32,8 @@ void main() {
     }
     for (uint row = 0u; row < kRows; ++row) {
         uint pixel = firstPixel + row * kTileSize;
-        if (kSurfaces) counts[row] += UintArray(push.surfaceOffsets).at[pixel];
-        UintArray(push.offsets).at[pixel] = counts[row];
+        if (kSurfaces && push.firstMedium == 0u)
+            counts[row] += UintArray(push.surfaceOffsets).at[pixel];
+        UintArray(push.offsets).at[pixel] += counts[row];
     }
 }

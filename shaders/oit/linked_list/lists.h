@@ -9,7 +9,7 @@ BRUME_STRUCTS_BEGIN
 // A list entry is a uvec2: the bits of the distance at which it begins (a float >= 0, so that they
 // sort as an integer), and kind << kKindShift | index. Pixels are numbered tile by tile from the
 // band's first tile, 64 to a tile, row by row; the entries of pixel p are
-// entries[offsets[p] .. offsets[p + 1]), the surfaces last until they are sorted; its surface
+// entries[offsets[p] .. offsets[p + 1]), media first, then surfaces, each sorted; its surface
 // records are records[surfaceOffsets[p] .. surfaceOffsets[p + 1]).
 BRUME_CONST uint kKindShift = 30u;
 BRUME_CONST uint kKindSphere = 0u;   // index into the sorted spheres
@@ -29,7 +29,20 @@ struct ListPush {
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
     uint64_t boxOffsets, boxPairs;
     uint64_t counters;  // ListCounters
+    uint64_t progress;  // uint[pixels]: media stored already, and kUnsortedBit
+    uint64_t states;    // PixelState[pixels]: where unfinished pixels go on in the next round
+    uint firstMedium;   // count, store: of the slice of a tile's media to visit
+    uint round;         // resolve: from 0
+    uint roundCount;
 };
+
+// Some devices silently end all loops of an invocation after 65 535 iterations (counted for eight
+// or so invocations in lock step). So no dispatch may need more: count and store visit the media
+// of a tile in slices, and pixels with much to do are resolved in several rounds.
+BRUME_CONST uint kMediaPerSlice = 512u;        // spheres and boxes each
+BRUME_CONST uint kShiftsPerSlice = 5000u;      // that an invocation of store spends on sorting
+BRUME_CONST uint kIterationsPerRound = 8000u;  // after which a pixel waits for the next round
+BRUME_CONST uint kUnsortedBit = 0x80000000u;   // in progress: resolve has to sort the media
 
 // What a triangle leaves in a list.
 struct SurfaceRecord {
@@ -45,9 +58,47 @@ BRUME_CONST uint kFaceThin = 0u;
 BRUME_CONST uint kFaceFront = 1u;  // of a solid: the ray enters
 BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
 
+// What a ray has met so far: everything that compositing front to back carries along.
+struct Path {
+    vec3 radiance;
+    vec3 surfaces;  // product of the transmissions of the thin surfaces crossed
+    vec3 depthHi;   // optical depth of the media crossed: T = surfaces * exp(-depth)
+    vec3 depthLo;   // what rounding has taken from depthHi
+    vec3 decay;     // exp(-depth)
+};
+
+// Sums over the solids that the ray is inside, or over the open media of constant density.
+struct Sums {
+    int count;
+    vec3 extinctionHi, extinctionLo;
+    vec3 sourceHi, sourceLo;  // of solids: scattering coefficient
+};
+
+// How far a pixel is resolved.
+struct PixelState {
+    uint stage;    // kStage...
+    uint at;       // sorting: next step
+    uint medium;   // next entries to be met: of the media,
+    uint surface;  // of the surfaces
+    uint open;     // see constant.glsl and varying.glsl
+    uint openBoxes;
+    float position;  // of the last event
+    float offset;    // distance behind it
+    float stepLimit;
+    Path path;
+    Sums solids;
+    Sums media;  // constant
+};
+
+BRUME_CONST uint kStageSortMedia = 0u;
+BRUME_CONST uint kStageSortSurfaces = 1u;
+BRUME_CONST uint kStageWalk = 2u;
+BRUME_CONST uint kStageDone = 3u;
+BRUME_CONST uint kStageLost = 4u;  // the device has ended loops by itself
+
 struct ListCounters {
-    uint exhausted;  // pixels that reached kMaxIterations: the image is not exact, the host must
-                     // say so
+    uint exhausted;  // pixels unfinished after the last round: the image is not exact, the host
+                     // must say so
 };
 
 struct TileTotals {
@@ -55,9 +106,6 @@ struct TileTotals {
     uint surfaces;
     uint longest;
 };
-
-// Loop iterations after which a pixel gives up: one software rasteriser stops silently at 65 535.
-BRUME_CONST uint kMaxIterations = 64000u;
 
 // Media that the resolve works out once per ray where nothing varies along it.
 BRUME_CONST uint kKeptMedia = 4u;
@@ -68,7 +116,8 @@ BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::ListPush) == 96);
+static_assert(sizeof(brume::shader::ListPush) == 128);
 static_assert(sizeof(brume::shader::SurfaceRecord) == 48);
+static_assert(sizeof(brume::shader::PixelState) == 200);
 #endif
 #endif

@@ -40,6 +40,12 @@ bool beginColumn(out uint tile, out uint firstPixel) {
     return bandTile < push.tileCount;
 }
 
+// The part of list[first .. last) that this dispatch visits.
+void sliceMedia(inout uint first, inout uint last) {
+    first = min(first + push.firstMedium, last);
+    last = min(first + kMediaPerSlice, last);
+}
+
 bool hitsSphere(SphereData sphere, uint row, out vec2 t) {
     return intersectSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
                            sphere.radius, t) &&

@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ray has met so far: everything that compositing front to back carries along.
+// Crossing one thing after another along a ray, front to back.
 #ifndef BRUME_OIT_LINKED_LIST_PATH_GLSL
 #define BRUME_OIT_LINKED_LIST_PATH_GLSL
 #include "../../common/exponential.glsl"
 #include "lists.h"
 
-struct Path {
-    vec3 radiance;
-    vec3 surfaces;  // product of the transmissions of the thin surfaces crossed
-    vec3 depthHi,
-        depthLo;  // optical depth of the media crossed, compensated: T = surfaces * exp(-depth)
-    vec3 decay;   // exp(-depth)
-};
-
-// The solids that the ray is inside: constant media.
-struct Solids {
-    int count;
-    vec3 extinctionHi, extinctionLo;
-    vec3 scatteringHi, scatteringLo;
-};
-
 Path beginPath() { return Path(vec3(0), vec3(1), vec3(0), vec3(0), vec3(1)); }
-Solids noSolids() { return Solids(0, vec3(0), vec3(0), vec3(0), vec3(0)); }
+Sums noSums() { return Sums(0, vec3(0), vec3(0), vec3(0), vec3(0)); }
 
 vec3 expChannels(vec3 x) { return kColoured ? exp(x) : vec3(exp(x.x)); }
+
+// One more (sign = 1) or less (-1). In free space the sums are set to zero: what rounding has left
+// must not reach the background.
+void addToSums(inout Sums sums, float sign, vec3 extinction, vec3 source) {
+    sums.count += sign > 0.0 ? 1 : -1;
+    addExactly(sums.extinctionHi, sums.extinctionLo, sign * extinction);
+    addExactly(sums.sourceHi, sums.sourceLo, sign * source);
+    if (sums.count <= 0) sums = Sums(sums.count, vec3(0), vec3(0), vec3(0), vec3(0));
+}
 
 void addDepth(inout Path path, vec3 depth) {
     addExactly(path.depthHi, path.depthLo, depth);
@@ -32,7 +26,8 @@ void addDepth(inout Path path, vec3 depth) {
 
 // A stretch in which extinction and source (radiance per metre) are constant.
 void crossConstant(inout Path path, vec3 extinction, vec3 source, float distance) {
-    vec3 depth = extinction * distance;
+    // No difference behind a depth of 1e30, but sums stay finite.
+    vec3 depth = min(extinction * distance, vec3(1e30));
     vec3 decay = expChannels(-depth);
     vec3 before = path.surfaces * path.decay;
     // Divide by the extinction first where the stretch is long: source * distance may overflow.
@@ -42,18 +37,15 @@ void crossConstant(inout Path path, vec3 extinction, vec3 source, float distance
     addDepth(path, depth);
 }
 
-void crossThin(inout Path path, SurfaceRecord record) {
-    path.radiance += path.surfaces * path.decay * (record.coverage * record.radiance);
-    path.surfaces *= 1.0 - record.coverage + record.coverage * record.transmission;
-}
-
-void crossSolid(inout Solids solids, SurfaceRecord record) {
-    float sign = record.face == kFaceFront ? 1.0 : -1.0;
-    solids.count += record.face == kFaceFront ? 1 : -1;
-    addExactly(solids.extinctionHi, solids.extinctionLo, sign * record.transmission);
-    addExactly(solids.scatteringHi, solids.scatteringLo, sign * record.scattering);
-    // Free space again: what rounding has left must not reach the background.
-    if (solids.count <= 0) solids = Solids(solids.count, vec3(0), vec3(0), vec3(0), vec3(0));
+// A thin surface, or one side of a solid.
+void crossSurface(inout Path path, inout Sums solids, SurfaceRecord record) {
+    if (record.face == kFaceThin) {
+        path.radiance += path.surfaces * path.decay * (record.coverage * record.radiance);
+        path.surfaces *= 1.0 - record.coverage + record.coverage * record.transmission;
+    } else {
+        addToSums(solids, record.face == kFaceFront ? 1.0 : -1.0, record.transmission,
+                  record.scattering);
+    }
 }
 
 bool isOpaque(Path path) {

@@ -10,6 +10,9 @@ layout(push_constant, scalar) uniform Push { ListPush push; };
 layout(buffer_reference, scalar) buffer RecordArray { SurfaceRecord at[]; };
 layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
 
+// -0 is 0.
+uint distanceKey(float t) { return floatBitsToUint(t) & 0x7fffffffu; }
+
 uint pixelIndex(uvec2 pixel) {
     uvec2 tile = pixel / kTileSize, inside = pixel % kTileSize;
     return (tile.y * frame.tiles.x + tile.x - push.firstTile) * 64u + inside.y * kTileSize +

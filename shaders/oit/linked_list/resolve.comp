@@ -15,24 +15,34 @@ layout(constant_id = 1) const bool kBoxes = true;
 layout(constant_id = 2) const bool kVarying = true;       // densities or light vary along the ray
 layout(constant_id = 3) const bool kVaryingLight = true;  // point or spot lights
 layout(constant_id = 4) const bool kColoured = true;      // extinction differs between channels
-layout(constant_id = 5) const bool kFewMedia = true;      // no more than kKeptMedia
+layout(constant_id = 5) const bool kRounds = true;        // more than one: keep states
+layout(constant_id = 6) const bool kFewMedia = true;      // no more than kKeptMedia
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
 layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingResult, rgba32f) writeonly uniform image2D result;
+layout(buffer_reference, scalar) buffer StateArray { PixelState at[]; };
 
-const float kFar = 1e30;  // where the sky is
+const float kFar = 1e30;                        // where the sky is
+const uvec2 kNoEntry = uvec2(0x7149f2cau, 0u);  // at kFar
 
 Ray ray;
-uint first;  // of the list
-uint count;  // entries in it
+uint first;       // of the list
+uint mediaCount;  // its first part
+uint count;       // with the surfaces
 uint iterations = 0u;
+PixelState state;
 
 uvec2 loadEntry(uint i) { return Uvec2Array(push.entries).at[first + i]; }
 void storeEntry(uint i, uvec2 entry) { Uvec2Array(push.entries).at[first + i] = entry; }
 SurfaceRecord loadRecord(uvec2 entry) { return RecordArray(push.records).at[entry.y & kIndexMask]; }
+
+uvec2 mediumEntry() { return state.medium < mediaCount ? loadEntry(state.medium) : kNoEntry; }
+uvec2 surfaceEntry() {
+    return kSurfaces && state.surface < count ? loadEntry(state.surface) : kNoEntry;
+}
 
 #include "constant.glsl"
 #include "path.glsl"
@@ -41,17 +51,46 @@ SurfaceRecord loadRecord(uvec2 entry) { return RecordArray(push.records).at[entr
 
 // Solids around the eye: what the ray leaves without having entered it, seen over the whole list,
 // also behind opaque surfaces (Barta & Kovacs 2011, section 3.5, the backward pass).
-Solids findSolidsAroundEye(uint surfaceCount) {
-    Solids solids = noSolids();
-    for (uint i = count - surfaceCount; i < count; ++i) {
+Sums findSolidsAroundEye() {
+    Sums solids = noSums();
+    for (uint i = mediaCount; i < count; ++i) {
         SurfaceRecord record = loadRecord(loadEntry(i));
         if (record.face == kFaceThin) continue;
         float sign = record.face == kFaceBack ? 1.0 : -1.0;
         solids.count += record.face == kFaceBack ? 1 : -1;
         addExactly(solids.extinctionHi, solids.extinctionLo, sign * record.transmission);
-        addExactly(solids.scatteringHi, solids.scatteringLo, sign * record.scattering);
+        addExactly(solids.sourceHi, solids.sourceLo, sign * record.scattering);
     }
-    return solids.count > 0 ? solids : noSolids();
+    iterations += count - mediaCount;
+    return solids.count > 0 ? solids : noSums();
+}
+
+void beginState(bool isUnsorted) {
+    state.stage = isUnsorted ? kStageSortMedia : kSurfaces ? kStageSortSurfaces : kStageWalk;
+    state.at = state.medium = state.open = state.openBoxes = 0u;
+    state.surface = mediaCount;
+    state.position = state.offset = 0.0;
+    state.stepLimit = kFar;
+    state.path = beginPath();
+    state.media = noSums();
+    state.solids = kSurfaces ? findSolidsAroundEye() : noSums();
+}
+
+void advance(float limit) {
+    if (state.stage == kStageSortMedia && sortList(0u, mediaCount)) {
+        state.stage = kSurfaces ? kStageSortSurfaces : kStageWalk;
+        state.at = 0u;
+    }
+    if (kSurfaces && state.stage == kStageSortSurfaces && sortList(mediaCount, count))
+        state.stage = kStageWalk;
+    if (state.stage == kStageWalk) {
+        if (kVarying)
+            walkVarying(limit);
+        else
+            walkConstant(limit);
+    }
+    // The device has ended the loops, nobody knows where.
+    if (state.stage != kStageDone && iterations <= kIterationsPerRound) state.stage = kStageLost;
 }
 
 void main() {
@@ -63,22 +102,24 @@ void main() {
     uint index = bandTile * 64u + gl_LocalInvocationIndex;
     first = UintArray(push.offsets).at[index];
     count = UintArray(push.offsets).at[index + 1u] - first;
+    mediaCount = count;
+    if (kSurfaces)
+        mediaCount -= UintArray(push.surfaceOffsets).at[index + 1u] -
+                      UintArray(push.surfaceOffsets).at[index];
     ray = makeRay(vec2(pixel) + 0.5);
     float limit = min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar);
 
-    Solids solids = noSolids();
-    if (kSurfaces) {
-        uint surfaceCount = UintArray(push.surfaceOffsets).at[index + 1u] -
-                            UintArray(push.surfaceOffsets).at[index];
-        solids = findSolidsAroundEye(surfaceCount);
-        sortSurfaces(surfaceCount);
+    if (kRounds && push.round > 0u) {
+        state = StateArray(push.states).at[index];
+        if (state.stage >= kStageDone) return;
+    } else {
+        beginState((UintArray(push.progress).at[index] & kUnsortedBit) != 0u);
     }
-    Path path = beginPath();
-    if (kVarying)
-        resolveVarying(path, solids, limit);
-    else
-        resolveConstant(path, solids, limit);
-    path.radiance += path.surfaces * path.decay * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
-    imageStore(result, ivec2(pixel), vec4(path.radiance, 1.0));
-    if (iterations >= kMaxIterations) atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
+    advance(limit);
+    vec3 rest = state.path.surfaces * state.path.decay;
+    vec3 radiance = state.path.radiance + rest * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
+    imageStore(result, ivec2(pixel), vec4(radiance, 1.0));
+    if (kRounds) StateArray(push.states).at[index] = state;
+    if (state.stage != kStageDone && push.round + 1u == push.roundCount)
+        atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }

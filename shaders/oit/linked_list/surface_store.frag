@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the fragments of thin and solid surfaces: a record each, and an entry from the end of the
-// pixel's list downwards.
+// Stores the fragments of thin and solid surfaces: a record each, and an entry behind the media of
+// the pixel, in the order of arrival.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../../common/surface.glsl"
@@ -36,9 +36,10 @@ void main() {
     if (!isSeen || !isInBand(pixel)) return;
     uint index = pixelIndex(pixel);
     uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[index], 1u);
-    uint slot = UintArray(push.offsets).at[index + 1u] - 1u - arrival;
     uint recordIndex = UintArray(push.surfaceOffsets).at[index] + arrival;
+    uint behind = UintArray(push.surfaceOffsets).at[index + 1u] - recordIndex;
+    uint slot = UintArray(push.offsets).at[index + 1u] - behind;
     RecordArray(push.records).at[recordIndex] = makeRecord(point);
     Uvec2Array(push.entries).at[slot] =
-        uvec2(floatBitsToUint(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);
+        uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);
 }

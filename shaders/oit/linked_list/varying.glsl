@@ -17,39 +17,45 @@ const mat3 kUpTo = mat3(  // column k: integral from 0 to node k
     5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0,
     5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0);
 
+// Of the radiance in one step; and the error of the nodes per variation and fourth power of the
+// depth (chosen by us, so that the hard rays of the tests are exact to 1e-5).
+const float kAllowedError = 1e-6;
+const float kErrorOfDepth = 3e-4;
+
 struct Nodes {
     vec3 extinction[3];
     vec3 source[3];
 };
 
-// The open media live in list[0 .. count), boxes first, each as (bits of its end, kind and index):
-// the entries there are used up. Boxes and spheres are visited by loops of their own, because on
-// some devices a branch that is not taken costs as much as one that is.
-struct OpenSet {
-    uint count;
-    uint boxes;
-};
+// The open media live in list[0 .. state.open), the first state.openBoxes of them boxes, each as
+// (bits of its end, kind and index): the entries there are used up. Boxes and spheres are visited
+// by loops of their own, because on some devices a branch that is not taken costs as much as one
+// that is.
+//
+// A place on the ray is the distance of the last event, state.position, and an offset behind it:
+// together they are finer than the rounding of the distance, which dense media need where they
+// begin.
 
-void openMedium(inout OpenSet open, uvec2 entry, bool isBox) {
+void openMedium(uvec2 entry, bool isBox) {
     if (kBoxes && isBox) {
-        if (open.boxes < open.count) storeEntry(open.count, loadEntry(open.boxes));
-        storeEntry(open.boxes, entry);
-        ++open.boxes;
+        if (state.openBoxes < state.open) storeEntry(state.open, loadEntry(state.openBoxes));
+        storeEntry(state.openBoxes, entry);
+        ++state.openBoxes;
     } else {
-        storeEntry(open.count, entry);
+        storeEntry(state.open, entry);
     }
-    ++open.count;
+    ++state.open;
 }
 
-void closeMedium(inout OpenSet open, uint index) {
+void closeMedium(uint index) {
     uint hole = index;
-    if (kBoxes && index < open.boxes) {
-        --open.boxes;
-        storeEntry(hole, loadEntry(open.boxes));
-        hole = open.boxes;
+    if (kBoxes && index < state.openBoxes) {
+        --state.openBoxes;
+        storeEntry(hole, loadEntry(state.openBoxes));
+        hole = state.openBoxes;
     }
-    --open.count;
-    storeEntry(hole, loadEntry(open.count));
+    --state.open;
+    storeEntry(hole, loadEntry(state.open));
 }
 
 // Media are gathered in groups of this many: each light and medium is then loaded once per step
@@ -69,20 +75,21 @@ void addToGroup(inout Gathered sum, uint base, uint medium, vec3 densities, vec3
     }
 }
 
-Gathered gatherOpen(OpenSet open, uint base, vec3 t) {
+Gathered gatherOpen(uint base, vec3 offsets) {
     Gathered sum;
     for (uint g = 0u; g < kGroup; ++g) sum.density[g] = vec3(0);
     for (uint g = 0u; g < kGroup * 3u; ++g) sum.tinted[g] = vec3(0);
     if (kBoxes)
-        for (uint i = 0u; i < open.boxes; ++i) {
+        for (uint i = 0u; i < state.openBoxes; ++i) {
             BoxData box = boxes[loadEntry(i).y & kIndexMask];
             VolumeData volume = volumes[box.volume];
-            addToGroup(sum, base, volume.medium, boxDensities(box, localRay(ray, box, volume), t),
-                       vec3(1));
+            LocalRay local = localRay(ray, box, volume, state.position);
+            addToGroup(sum, base, volume.medium, boxDensities(box, local, offsets), vec3(1));
         }
-    for (uint i = kBoxes ? open.boxes : 0u; i < open.count; ++i) {
+    for (uint i = kBoxes ? state.openBoxes : 0u; i < state.open; ++i) {
         SphereData sphere = spheres[loadEntry(i).y & kIndexMask];
-        addToGroup(sum, base, sphere.medium, sphereDensities(ray, sphere, t), sphere.tint);
+        addToGroup(sum, base, sphere.medium, sphereDensities(ray, sphere, state.position, offsets),
+                   sphere.tint);
     }
     return sum;
 }
@@ -134,62 +141,85 @@ void addGroup(inout Nodes nodes, uint base, Gathered sum, Scattered scattered) {
 }
 
 // Extinction and source of everything that is open, at three distances.
-Nodes evaluateNodes(OpenSet open, Solids solids, vec3 t) {
+Nodes evaluateNodes(vec3 offsets) {
     Nodes nodes;
-    Scattered scattered = scatterGroup(0u, min(t, vec3(1e6)));
+    vec3 t = min(state.position + offsets, vec3(1e6));
+    Scattered scattered = scatterGroup(0u, t);
+    uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
+    iterations += groups * (1u + state.open + frame.lightCount);
     for (int k = 0; k < 3; ++k) {
         nodes.extinction[k] = nodes.source[k] = vec3(0);
         if (kSurfaces) {
-            nodes.extinction[k] = solids.extinctionHi + solids.extinctionLo;
-            nodes.source[k] = (solids.scatteringHi + solids.scatteringLo) * scattered.isotropic[k];
+            nodes.extinction[k] = state.solids.extinctionHi + state.solids.extinctionLo;
+            nodes.source[k] =
+                (state.solids.sourceHi + state.solids.sourceLo) * scattered.isotropic[k];
         }
     }
     if (frame.mediumCount > 0u) {
-        addGroup(nodes, 0u, gatherOpen(open, 0u, t), scattered);
+        addGroup(nodes, 0u, gatherOpen(0u, offsets), scattered);
         for (uint base = kGroup; base < frame.mediumCount; base += kGroup)
-            addGroup(nodes, base, gatherOpen(open, base, t), scatterGroup(base, t));
+            addGroup(nodes, base, gatherOpen(base, offsets), scatterGroup(base, t));
     }
     return nodes;
 }
 
-// A step short enough for three nodes near every light: 1/d^2 has its poles at the light, and a
-// kink where it is capped at the light's radius, which steps must not cross.
+// The next place ahead at which the ray, `offset` from the apex of a cone, crosses it.
+float nextConeCrossing(vec3 offset, vec3 axis, float cosAngle, float slack) {
+    float oa = dot(offset, axis), da = dot(ray.direction, axis), c2 = cosAngle * cosAngle;
+    float a = da * da - c2, b = oa * da - c2 * dot(offset, ray.direction);
+    float c = oa * oa - c2 * dot(offset, offset);
+    float q = -(b + (b < 0.0 ? -1.0 : 1.0) * sqrt(max(b * b - a * c, 0.0)));
+    float t1 = q / (abs(a) > 1e-20 ? a : 1e-20), t2 = c / (abs(q) > 1e-20 ? q : 1e-20);
+    return min(t1 > slack ? t1 : kFar, t2 > slack ? t2 : kFar);
+}
+
+// A step short enough for three nodes near a point or spot light: 1/d^2 has its poles at the light,
+// and kinks where it is capped at the light's radius and at the cones of a spot, which steps must
+// not cross.
+float limitStepByLight(LightData light, float position) {
+    vec3 offset = light.position - ray.origin;
+    float nearest = dot(offset, ray.direction), ahead = nearest - position;
+    vec3 across = offset - nearest * ray.direction;
+    float aside2 = dot(across, across);
+    float distance = sqrt(ahead * ahead + aside2);
+    float chord = sqrt(max(light.radius * light.radius - aside2, 0.0));
+    float enter = ahead - chord, leave = ahead + chord, slack = 1e-3 * light.radius;
+    float own = ahead > 0.0 ? max(distance / 3.0, 0.5 * sqrt(aside2)) : distance * 0.5;
+    if (enter > slack)
+        own = min(own, chord > 0.0 ? enter : own);
+    else if (leave > slack)
+        own = min(leave, 0.5 * light.radius);
+    if (light.type == kLightSpot) {
+        vec3 fromLight = position * ray.direction - offset;
+        float near = 1e-5 * distance;
+        own = min(own, nextConeCrossing(fromLight, light.direction, light.cosInner, near));
+        own = min(own, nextConeCrossing(fromLight, light.direction, light.cosOuter, near));
+    }
+    return max(own, slack);
+}
+
 float limitStepByLights(float position) {
     float limit = kFar;
-    for (uint i = 0u; i < frame.lightCount; ++i) {
-        if (lights[i].type == kLightDirectional) continue;
-        float radius = lights[i].radius;
-        vec3 offset = lights[i].position - ray.origin;
-        float nearest = dot(offset, ray.direction), ahead = nearest - position;
-        vec3 across = offset - nearest * ray.direction;
-        float aside2 = dot(across, across);
-        float distance = sqrt(ahead * ahead + aside2);
-        float chord = sqrt(max(radius * radius - aside2, 0.0));
-        float enter = ahead - chord, leave = ahead + chord, slack = 1e-3 * radius;
-        float own = ahead > 0.0 ? max(distance / 3.0, 0.5 * sqrt(aside2)) : distance * 0.5;
-        if (enter > slack)
-            own = min(own, chord > 0.0 ? enter : own);
-        else if (leave > slack)
-            own = min(leave, 0.5 * radius);
-        limit = min(limit, max(own, slack));
-    }
+    for (uint i = 0u; i < frame.lightCount; ++i)
+        if (lights[i].type != kLightDirectional)
+            limit = min(limit, limitStepByLight(lights[i], position));
+    iterations += frame.lightCount;
     return limit;
 }
 
 // Integrates source * exp(-depth) over one step. The mean source radiance is taken exactly; only
-// its variation within the step is left to the nodes. False (and nothing done) if the step is too
-// long for that.
-bool crossVarying(inout Path path, Nodes nodes, float distance) {
+// its variation within the step is left to the nodes. Returns the estimated error in units of what
+// is allowed; above 1 nothing is done.
+float crossVarying(Nodes nodes, float distance) {
     vec3 extinction = vec3(0), source = vec3(0);
     for (int k = 0; k < 3; ++k) {
         extinction += kWeights[k] * nodes.extinction[k];
         source += kWeights[k] * nodes.source[k];
     }
-    vec3 depth = extinction * distance;
-    vec3 before = path.surfaces * path.decay;
+    vec3 depth = min(extinction * distance, vec3(1e30));
+    vec3 before = state.path.surfaces * state.path.decay;
     vec3 mean = source / max(extinction, vec3(1e-30));
-    bvec3 empty = lessThan(depth, vec3(1e-7));
-    vec3 variation = vec3(0), size = vec3(0);
+    vec3 variation = vec3(0), size = vec3(0), deviation = vec3(0);
     for (int k = 0; k < 3; ++k) {
         vec3 depthAtNode =
             distance * (kUpTo[k][0] * nodes.extinction[0] + kUpTo[k][1] * nodes.extinction[1] +
@@ -197,15 +227,20 @@ bool crossVarying(inout Path path, Nodes nodes, float distance) {
         vec3 difference = nodes.source[k] - mean * nodes.extinction[k];
         variation += kWeights[k] * difference * expChannels(-max(depthAtNode, 0.0));
         size += kWeights[k] * abs(difference);
+        deviation = max(deviation, abs(difference) / max(nodes.extinction[k], vec3(1e-30)));
     }
+    // No light comes from where there is nothing, only rounding.
+    bvec3 empty = lessThan(depth, vec3(1e-7));
     variation = mix(variation * distance, vec3(0), empty);
-    size = mix(before * size * distance, vec3(0), empty);
-    vec3 error = size * min(depth * depth * depth, vec3(1)) * 0.02;
-    if (max(error.x, max(error.y, error.z)) > 1e-6 && max(depth.x, max(depth.y, depth.z)) > 0.25)
-        return false;
-    crossConstant(path, extinction, source, distance);
-    path.radiance += before * variation;
-    return true;
+    // What is left to the nodes cannot exceed the deviation of the source radiance from its mean;
+    // of that they get more wrong the deeper the step.
+    vec3 bound = before * min(mix(size * distance, vec3(0), empty), deviation);
+    vec3 error = bound * min(kErrorOfDepth * depth * depth * depth * depth, vec3(1));
+    float worst = max(error.x, max(error.y, error.z)) / kAllowedError;
+    if (worst > 1.0 && max(depth.x, max(depth.y, depth.z)) > 0.1) return worst;
+    crossConstant(state.path, extinction, source, distance);
+    state.path.radiance += before * variation;
+    return min(worst, 1.0);
 }
 
 // The entry and exit of the medium that an entry stands for.
@@ -213,7 +248,7 @@ vec2 intersectMedium(uvec2 entry, bool isBox) {
     vec2 t;
     uint index = entry.y & kIndexMask;
     if (kBoxes && isBox) {
-        LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume]);
+        LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume], 0.0);
         intersectBox(local.origin, local.direction, boxes[index].size, t);
     } else {
         intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);
@@ -221,62 +256,86 @@ vec2 intersectMedium(uvec2 entry, bool isBox) {
     return t;
 }
 
-void resolveVarying(inout Path path, Solids solids, float limit) {
-    OpenSet open = OpenSet(0u, 0u);
-    uint next = 0u;
-    float position = 0.0, stepLimit = kFar;
-    while (iterations < kMaxIterations) {
-        ++iterations;
-        uvec2 entry = next < count ? loadEntry(next) : uvec2(0);
-        float enter = next < count ? uintBitsToFloat(entry.x) : kFar;
-        float leave = kFar, plane = kFar;
-        uint leaving = 0u;
-        for (uint i = 0u; i < open.count; ++i) {
-            float end = uintBitsToFloat(loadEntry(i).x);
-            if (end < leave) leave = end, leaving = i;
-        }
-        if (kBoxes)
-            for (uint i = 0u; i < open.boxes; ++i) {
-                BoxData box = boxes[loadEntry(i).y & kIndexMask];
-                plane =
-                    min(plane, nextPlane(box, localRay(ray, box, volumes[box.volume]), position));
-            }
-        iterations += 2u * open.count;
-        float event = max(min(min(enter, leave), limit), position);
-        float target = max(min(event, plane), position);
-        if (open.count > 0u || solids.count > 0) {
-            if (kVaryingLight) target = min(target, position + limitStepByLights(position));
-            target = min(target, position + stepLimit);
-        }
-        float distance = target - position;
-        if (distance > 0.0) {
-            Nodes nodes = evaluateNodes(open, solids, position + distance * kNodes);
-            if (!crossVarying(path, nodes, distance)) {
-                stepLimit = distance * 0.4;
-                continue;
-            }
-        }
-        stepLimit = target < event ? 4.0 * max(distance, 1e-6 * position) : kFar;
-        position = target;
-        if (position >= limit || isOpaque(path)) break;
-        if (target < event) continue;
+// The open medium that ends first.
+float findNextEnd(out uint leaving) {
+    float leave = kFar;
+    leaving = 0u;
+    for (uint i = 0u; i < state.open; ++i) {
+        float end = uintBitsToFloat(loadEntry(i).x);
+        if (end < leave) leave = end, leaving = i;
+    }
+    iterations += state.open;
+    return leave;
+}
 
-        if (enter <= leave) {
-            if (kSurfaces && (entry.y >> kKindShift) == kKindSurface) {
-                SurfaceRecord record = loadRecord(entry);
-                if (record.face == kFaceThin)
-                    crossThin(path, record);
-                else
-                    crossSolid(solids, record);
-            } else {
-                bool isBox = (entry.y >> kKindShift) == kKindBox;
-                openMedium(open, uvec2(floatBitsToUint(intersectMedium(entry, isBox).y), entry.y),
-                           isBox);
-            }
-            ++next;
-        } else {
-            closeMedium(open, leaving);
+// How far the next step may go, from state.offset to at most `last`.
+float limitStep(float last) {
+    float target = last;
+    if (kBoxes)
+        for (uint i = 0u; i < state.openBoxes; ++i) {
+            BoxData box = boxes[loadEntry(i).y & kIndexMask];
+            LocalRay local = localRay(ray, box, volumes[box.volume], state.position);
+            target = min(target, nextPlane(box, local, state.offset));
         }
+    iterations += state.openBoxes;
+    if (kVaryingLight)
+        target = min(target, state.offset + limitStepByLights(state.position + state.offset));
+    return max(min(target, state.offset + state.stepLimit), state.offset);
+}
+
+// One step towards the offset `last`; true if that is reached.
+bool stepTowards(float last) {
+    if (state.open == 0u && state.solids.count <= 0) return true;
+    float target = limitStep(last), distance = target - state.offset;
+    if (distance > 0.0) {
+        float error = crossVarying(evaluateNodes(state.offset + distance * kNodes), distance);
+        // The error grows with a high power of the step.
+        float scale = clamp(0.9 * pow(max(error, 1e-15), -0.2), 1e-6, 100.0);
+        state.stepLimit = distance * (error > 1.0 ? min(scale, 0.5) : scale);
+        if (error > 1.0) return false;
+    } else {
+        state.stepLimit = kFar;
+    }
+    state.offset = target;
+    return target >= last;
+}
+
+// From where the state says to the end of the ray, or of the round.
+void walkVarying(float limit) {
+    uvec2 enter = mediumEntry(), surface = surfaceEntry();
+    uint leaving;
+    float leave = findNextEnd(leaving);
+    while (iterations <= kIterationsPerRound) {
+        ++iterations;
+        float cross = uintBitsToFloat(surface.x);
+        float event = min(min(uintBitsToFloat(enter.x), leave), min(cross, limit));
+        event = max(event, state.position);
+        bool isReached = stepTowards(event - state.position);
+        if (isOpaque(state.path) || (isReached && event >= limit)) {
+            state.stage = kStageDone;
+            break;
+        }
+        if (!isReached) continue;
+        state.position = event;
+        state.offset = 0.0;
+        state.stepLimit = kFar;
+
+        if (kSurfaces && cross < min(uintBitsToFloat(enter.x), leave)) {
+            crossSurface(state.path, state.solids, loadRecord(surface));
+            ++state.surface;
+            surface = surfaceEntry();
+            continue;
+        }
+        if (uintBitsToFloat(enter.x) <= leave) {
+            bool isBox = (enter.y >> kKindShift) == kKindBox;
+            uvec2 open = uvec2(distanceKey(intersectMedium(enter, isBox).y), enter.y);
+            ++state.medium;
+            enter = mediumEntry();
+            openMedium(open, isBox);
+        } else {
+            closeMedium(leaving);
+        }
+        leave = findNextEnd(leaving);
     }
 }
 
