@@ -35,9 +35,13 @@ function(brume_library name)
 endfunction()
 
 # brume_test(scene SOURCES loader_test.cpp DEPENDS brume_scene [LABELS cpu]): one executable per
-# area of tests/, each test of it known to CTest by its own name.
+# area of tests/, each test of it known to CTest by its own name. FILTER (as --gtest_filter) keeps
+# long ones out of CTest; they are run by the executable itself.
 function(brume_test area)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;FILTER" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(NOT ARG_FILTER)
+    set(ARG_FILTER "*")
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
@@ -51,5 +55,6 @@ function(brume_test area)
     BRUME_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     BRUME_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
   gtest_discover_tests(brume_${area}_tests TEST_PREFIX "${area}." DISCOVERY_MODE PRE_TEST
+    TEST_FILTER "${ARG_FILTER}"
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()

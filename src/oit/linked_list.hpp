@@ -13,7 +13,7 @@
 // Limits: more than some ten thousand varying media open at once at a pixel exceed what devices
 //         that cap loop iterations do in one dispatch (counter "exhausted" > 0: not exact there).
 // Cost: 8 bytes per interval and surface, 48 more per surface, 16 per pixel and band; where lists
-//         need several rounds to resolve, 200 more per pixel and band.
+//         need several rounds to resolve, 212 more per pixel and band.
 #pragma once
 
 #include <oit/media_bins.hpp>

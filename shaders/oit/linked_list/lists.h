@@ -61,10 +61,11 @@ BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
 // What a ray has met so far: everything that compositing front to back carries along.
 struct Path {
     vec3 radiance;
-    vec3 surfaces;  // product of the transmissions of the thin surfaces crossed
-    vec3 depthHi;   // optical depth of the media crossed: T = surfaces * exp(-depth)
-    vec3 depthLo;   // what rounding has taken from depthHi
-    vec3 decay;     // exp(-depth)
+    vec3 surfaces;    // product of the transmissions of the thin surfaces crossed
+    vec3 surfacesLo;  // what rounding has taken from it
+    vec3 depthHi;     // optical depth of the media crossed: T = surfaces * exp(-depth)
+    vec3 depthLo;     // what rounding has taken from depthHi
+    vec3 decay;       // exp(-depth)
 };
 
 // Sums over the solids that the ray is inside, or over the open media of constant density.
@@ -118,6 +119,6 @@ BRUME_STRUCTS_END
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 128);
 static_assert(sizeof(brume::shader::SurfaceRecord) == 48);
-static_assert(sizeof(brume::shader::PixelState) == 200);
+static_assert(sizeof(brume::shader::PixelState) == 212);
 #endif
 #endif

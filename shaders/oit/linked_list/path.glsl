@@ -5,7 +5,7 @@
 #include "../../common/exponential.glsl"
 #include "lists.h"
 
-Path beginPath() { return Path(vec3(0), vec3(1), vec3(0), vec3(0), vec3(1)); }
+Path beginPath() { return Path(vec3(0), vec3(1), vec3(0), vec3(0), vec3(0), vec3(1)); }
 Sums noSums() { return Sums(0, vec3(0), vec3(0), vec3(0), vec3(0)); }
 
 vec3 expChannels(vec3 x) { return kColoured ? exp(x) : vec3(exp(x.x)); }
@@ -41,7 +41,9 @@ void crossConstant(inout Path path, vec3 extinction, vec3 source, float distance
 void crossSurface(inout Path path, inout Sums solids, SurfaceRecord record) {
     if (record.face == kFaceThin) {
         path.radiance += path.surfaces * path.decay * (record.coverage * record.radiance);
-        path.surfaces *= 1.0 - record.coverage + record.coverage * record.transmission;
+        // Thousands of faint layers: 1 - alpha rounds the same way each time, the loss does not.
+        vec3 loss = record.coverage * (1.0 - record.transmission);
+        addExactly(path.surfaces, path.surfacesLo, -(path.surfaces + path.surfacesLo) * loss);
     } else {
         addToSums(solids, record.face == kFaceFront ? 1.0 : -1.0, record.transmission,
                   record.scattering);

@@ -231,11 +231,11 @@ float crossVarying(Nodes nodes, float distance) {
     }
     // No light comes from where there is nothing, only rounding.
     bvec3 empty = lessThan(depth, vec3(1e-7));
-    variation = mix(variation * distance, vec3(0), empty);
-    // What is left to the nodes cannot exceed the deviation of the source radiance from its mean;
-    // of that they get more wrong the deeper the step.
-    vec3 bound = before * min(mix(size * distance, vec3(0), empty), deviation);
-    vec3 error = bound * min(kErrorOfDepth * depth * depth * depth * depth, vec3(1));
+    // What is left to the nodes cannot exceed the deviation of the source radiance from its mean,
+    // which in dense media is but rounding; of that they get more wrong the deeper the step.
+    vec3 bound = min(mix(size * distance, vec3(0), empty), deviation);
+    variation = clamp(variation * distance, -bound, bound);
+    vec3 error = before * bound * min(kErrorOfDepth * depth * depth * depth * depth, vec3(1));
     float worst = max(error.x, max(error.y, error.z)) / kAllowedError;
     if (worst > 1.0 && max(depth.x, max(depth.y, depth.z)) > 0.1) return worst;
     crossConstant(state.path, extinction, source, distance);
