@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of one soft sphere, brick or box that a ray sees, as a layer: exact by itself.
+#ifndef BRUME_OIT_LAYERS_MEDIUM_LAYER_GLSL
+#define BRUME_OIT_LAYERS_MEDIUM_LAYER_GLSL
+#include "../../common/density.glsl"
+#include "../../common/intersect.glsl"
+#include "../../common/lighting.glsl"
+#include "layer.glsl"
+
+layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
+layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
+layout(location = 0) flat in vec4 centerRadius;
+layout(location = 1) flat in vec4 tintDensity;
+layout(location = 2) flat in uvec4 kind;
+
+const vec3 kNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
+const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
+
+// Integral of the density over [t.x, t.y].
+float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
+    LocalRay local = localRay(ray, box, volume, 0.0);
+    float sum = 0.0, position = t.x;
+    for (int i = 0; i < 64 && position < t.y; ++i) {
+        float target = min(nextPlane(box, local, position), t.y);
+        float distance = target - position;
+        sum += distance * dot(kWeights, boxDensities(box, local, position + distance * kNodes));
+        position = target;
+    }
+    return sum;
+}
+
+SphereData varyingSphere() {
+    return SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u,
+                      kind.y);
+}
+
+// False where the ray misses or meets something opaque before.
+bool findInterval(Ray ray, float limit, out vec2 t, out float densityLength) {
+    if (kBoxes && kind.z != 0u) {
+        BoxData box = boxes[kind.z - 1u];
+        VolumeData volume = volumes[box.volume];
+        LocalRay local = localRay(ray, box, volume, 0.0);
+        if (!intersectBox(local.origin, local.direction, box.size, t) || t.x >= limit) return false;
+        t.y = min(t.y, limit);
+        densityLength = boxDensityLength(ray, box, volume, t);
+        return true;
+    }
+    if (!intersectSphere(ray.origin, ray.direction, centerRadius.xyz, centerRadius.w, t) ||
+        t.x >= limit)
+        return false;
+    t.y = min(t.y, limit);
+    float length = t.y - t.x;
+    densityLength =
+        length * (kVarying ? dot(kWeights, sphereDensities(ray, varyingSphere(), t.x,
+                                                           length * kNodes))
+                           : tintDensity.w);
+    return true;
+}
+
+bool findMediumLayer(out Layer layer) {
+    Ray ray = makeRay(layerPixel());
+    float densityLength;
+    if (!findInterval(ray, opaqueDistance(), layer.t, densityLength)) return false;
+    MediumData medium = media[kind.x];
+    vec3 tint = kBoxes && kind.z != 0u ? vec3(1) : tintDensity.xyz;
+    vec3 middle = ray.origin + ray.direction * (0.5 * (layer.t.x + layer.t.y));
+    vec3 light = scatteredRadiance(medium, middle, ray.direction);
+    vec3 source =
+        tint * (medium.extinction * medium.albedo * light + medium.emission) * densityLength;
+    setMedium(layer, medium.extinction * densityLength, source);
+    layer.primitive = layer.object = kind.w;
+    return true;
+}
+
+// Where the ray has passed `share` of the layer's density. Boxes count as homogeneous.
+float findShare(Layer layer, float share) {
+    if (!kVarying || kind.y == kProfileConstant || (kBoxes && kind.z != 0u))
+        return mix(layer.t.x, layer.t.y, share);
+    // The chord of the whole sphere is u = -1 .. 1; along it (1 - u^2)^2 integrates to
+    // u - 2/3 u^3 + u^5 / 5. Bisection, because its slope vanishes at both ends.
+    Ray ray = makeRay(layerPixel());
+    vec2 chord;
+    vec3 offset = centerRadius.xyz - ray.origin;
+    float middle = dot(offset, ray.direction);
+    vec3 perpendicular = offset - middle * ray.direction;
+    float h = sqrt(max(centerRadius.w * centerRadius.w - dot(perpendicular, perpendicular), 1e-30));
+    vec2 u = clamp((layer.t - middle) / h, -1.0, 1.0), u2 = u * u;
+    vec2 end = u * (1.0 + u2 * (u2 * 0.2 - 2.0 / 3.0));
+    float target = mix(end.x, end.y, share);
+    for (int i = 0; i < 12; ++i) {
+        float m = 0.5 * (u.x + u.y), m2 = m * m;
+        bool isBefore = m * (1.0 + m2 * (m2 * 0.2 - 2.0 / 3.0)) < target;
+        u = isBefore ? vec2(m, u.y) : vec2(u.x, m);
+    }
+    return clamp(middle + h * 0.5 * (u.x + u.y), layer.t.x, layer.t.y);
+}
+
+#endif
