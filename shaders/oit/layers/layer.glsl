@@ -31,14 +31,15 @@ float opaqueDistance() { return texelFetch(opaqueT, ivec2(layerPixel()), 0).x; }
 float meanOf(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
 // -ln(1 - x) for 0 <= x <= 1: as 2 artanh(x / (2 - x)) where 1 - x has lost digits.
-vec3 depthFromLoss(vec3 x) {
-    vec3 y = x / (2.0 - x);
-    vec3 y2 = y * y;
-    vec3 series =
+vec4 depthFromLoss(vec4 x) {
+    vec4 y = x / (2.0 - x);
+    vec4 y2 = y * y;
+    vec4 series =
         2.0 * y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 / 9.0))));
-    vec3 direct = -log(max(1.0 - x, vec3(1e-36)));
-    return min(mix(direct, series, lessThan(x, vec3(0.25))), vec3(kMaxDepth));
+    vec4 direct = -log(max(1.0 - x, vec4(1e-36)));
+    return min(mix(direct, series, lessThan(x, vec4(0.25))), vec4(kMaxDepth));
 }
+vec3 depthFromLoss(vec3 x) { return depthFromLoss(vec4(x, 0.0)).xyz; }
 
 // A layer from its optical depth and the radiance that it would send if it did not attenuate
 // itself.

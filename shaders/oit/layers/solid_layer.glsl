@@ -26,6 +26,6 @@ bool findSolidLayer(out Layer layer) {
     return layer.t.y > layer.t.x;
 }
 
-float findShare(Layer layer, float share) { return mix(layer.t.x, layer.t.y, share); }
+vec4 findShares(Layer layer, vec4 shares) { return mix(layer.t.xxxx, layer.t.yyyy, shares); }
 
 #endif

@@ -21,4 +21,6 @@ bool findSurfaceLayer(out Layer layer, out SurfacePoint point) {
     return point.t < opaqueDistance();
 }
 
+vec4 findShares(Layer layer, vec4 shares) { return layer.t.xxxx; }
+
 #endif
