@@ -52,8 +52,11 @@ vec4 sampleThresholds(Noise noise, uint group) {
         if (kSamples == 2u) rank = uvec4(0u, 1u, 0u, 1u) ^ (words.y >> 31u);
         if (kSamples == 1u) rank = uvec4(0u);
         uint groups = max(kSamples / 4u, 1u);
-        // In which turn this group gets the sample of each rank.
-        uvec4 turn = (uvec4(group) + (uvec4(noise.key.x) >> (rank * 4u + 8u))) & (groups - 1u);
+        // In which turn this group gets the sample of each rank: an order that differs from rank to
+        // rank and from layer to layer in more than a shift, or their samples would go together.
+        uvec4 turns = uvec4(noise.key.y) >> (rank * 8u);
+        uvec4 turn = ((uvec4(group) ^ turns >> 4u) & (groups - 1u)) * (turns & 14u | 1u);
+        turn = (turn + (uvec4(noise.key.z) >> (rank * 8u))) & (groups - 1u);
         thresholds = (vec4(rank * groups + turn) + (1.0 - noise.shift)) / float(kSamples);
     }
     // With fewer than four samples each stands in more than one channel.
