@@ -30,9 +30,18 @@ gpu::Blend maximum() {
     return blend;
 }
 
+}  // namespace
+
 bool isColoured(const Needs& needs) { return needs.colouredExtinction || needs.colouredSurfaces; }
 
-}  // namespace
+frame::ImageRef makeLayerTarget(frame::FrameBuilder& frame, const Inputs& inputs,
+                                const std::string& name, VkFormat format) {
+    return frame.createImage({.name = name,
+                              .format = format,
+                              .width = inputs.extent.width,
+                              .height = inputs.extent.height,
+                              .usage = 0});
+}
 
 Solids::Solids(gpu::Device& device, const std::string& name, const Inputs& inputs) : mName(name) {
     if (!inputs.needs.solids) return;
@@ -50,11 +59,7 @@ Solids::Solids(gpu::Device& device, const std::string& name, const Inputs& input
 SolidTargets Solids::declare(frame::FrameBuilder& frame, const Inputs& inputs) const {
     if (!inputs.needs.solids) return {};
     const auto makeTarget = [&](const char* suffix, VkFormat format) {
-        return frame.createImage({.name = mName + suffix,
-                                  .format = format,
-                                  .width = inputs.extent.width,
-                                  .height = inputs.extent.height,
-                                  .usage = 0});
+        return makeLayerTarget(frame, inputs, mName + suffix, format);
     };
     const SolidTargets targets{makeTarget(".solid_depth", VK_FORMAT_R32G32B32A32_SFLOAT),
                                makeTarget(".solid_source", VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -121,39 +126,42 @@ void LayerPass::declareReads(frame::PassBuilder& pass, const Inputs& inputs,
 }
 
 void LayerPass::recordMedia(gpu::Commands& commands, const frame::PassResources& resources,
-                            const Inputs& inputs, const Bind& bind, std::uint32_t step,
-                            frame::BufferRef order) const {
+                            const Inputs& inputs, const LayerUse& use) const {
     const std::uint32_t count = inputs.sphereCount + inputs.boxCount;
     if (!mMedia || count == 0) return;
     commands.bindGraphics(mMedia);
     bindFrame(commands, inputs);
     bindMedia(commands, inputs, resources.buffer(inputs.spheres));
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
-    if (bind) bind(commands, resources);
+    if (use.bind) use.bind(commands, resources);
     commands.pushConstants(shader::LayerPush{
-        .order = order ? resources.address(order) : 0, .count = count, .step = step});
+        .order = use.order ? resources.address(use.order) : 0,
+        .data = use.data,
+        .count = count,
+        .step = use.step});
     commands.draw(6 * count);
 }
 
 void LayerPass::recordSurfaces(gpu::Commands& commands, const frame::PassResources& resources,
-                               const Inputs& inputs, const Bind& bind, std::uint32_t step) const {
+                               const Inputs& inputs, const LayerUse& use) const {
     if (!mSurfaces) return;
     commands.bindGraphics(mSurfaces);
     bindFrame(commands, inputs);
     bindMeshes(commands, inputs);
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
-    if (bind) bind(commands, resources);
+    if (use.bind) use.bind(commands, resources);
     for (const SurfaceDraw& draw : inputs.surfaces) {
         if (draw.isSolid && !mDrawsSolidFaces) continue;
-        commands.pushConstants(shader::LayerPush{.mesh = draw.mesh, .step = step});
+        commands.pushConstants(
+            shader::LayerPush{.data = use.data, .mesh = draw.mesh, .step = use.step});
         bindDraw(commands, inputs, draw);
         commands.draw(draw.vertexCount);
     }
 }
 
 void LayerPass::recordSolids(gpu::Commands& commands, const frame::PassResources& resources,
-                             const Inputs& inputs, const SolidTargets& solids, const Bind& bind,
-                             std::uint32_t step) const {
+                             const Inputs& inputs, const SolidTargets& solids,
+                             const LayerUse& use) const {
     if (!mSolids) return;
     commands.bindGraphics(mSolids);
     bindFrame(commands, inputs);
@@ -162,17 +170,17 @@ void LayerPass::recordSolids(gpu::Commands& commands, const frame::PassResources
     commands.bind(shader::kBindingSolidDepth, resources.image(solids.depth), sampler);
     commands.bind(shader::kBindingSolidSource, resources.image(solids.source), sampler);
     commands.bind(shader::kBindingSolidRange, resources.image(solids.range), sampler);
-    if (bind) bind(commands, resources);
-    commands.pushConstants(shader::LayerPush{.step = step});
+    if (use.bind) use.bind(commands, resources);
+    commands.pushConstants(shader::LayerPush{.data = use.data, .step = use.step});
     commands.draw(3);
 }
 
 void LayerPass::record(gpu::Commands& commands, const frame::PassResources& resources,
-                       const Inputs& inputs, const SolidTargets& solids, const Bind& bind,
-                       std::uint32_t step, frame::BufferRef order) const {
-    recordMedia(commands, resources, inputs, bind, step, order);
-    recordSurfaces(commands, resources, inputs, bind, step);
-    recordSolids(commands, resources, inputs, solids, bind, step);
+                       const Inputs& inputs, const SolidTargets& solids,
+                       const LayerUse& use) const {
+    recordMedia(commands, resources, inputs, use);
+    recordSurfaces(commands, resources, inputs, use);
+    recordSolids(commands, resources, inputs, solids, use);
 }
 
 OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs)
@@ -198,14 +206,15 @@ void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
     pass.color(inputs.result, gpu::LoadOp::Load);
     pass.record([this, inputs, solids, order](gpu::Commands& commands,
                                               const frame::PassResources& resources) {
-        mPass.record(commands, resources, inputs, solids, {}, 0, order);
+        mPass.record(commands, resources, inputs, solids, {.order = order});
     });
 }
 
 gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> fragment,
                                   const std::vector<gpu::Binding>& bindings,
-                                  const std::vector<std::uint32_t>& specialization) {
+                                  const std::vector<std::uint32_t>& specialization,
+                                  std::uint32_t pushConstantBytes) {
     return {device,
             {.name = name,
              .vertexSpirv = spv::common_screen_vert,
@@ -214,8 +223,29 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                  join(frameBindings(),
                       {kOpaqueT, {shader::kBindingOpaqueColor, BindingType::SampledImage}}),
                  bindings),
+             .pushConstantBytes = pushConstantBytes,
              .specialization = specialization,
              .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, {}}}}};
+}
+
+void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+                    const gpu::GraphicsPipeline& pipeline,
+                    std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
+                    const std::function<void(gpu::Commands&)>& push) {
+    images.emplace_back(shader::kBindingOpaqueT, inputs.opaqueT);
+    images.emplace_back(shader::kBindingOpaqueColor, inputs.opaqueColor);
+    frame::PassBuilder& pass = frame.addPass(name);
+    for (const auto& [binding, image] : images) pass.reads(image, Access::FragmentSample);
+    pass.color(inputs.result, gpu::LoadOp::DontCare);
+    pass.record([inputs, images, push, &pipeline](gpu::Commands& commands,
+                                                  const frame::PassResources& resources) {
+        commands.bindGraphics(pipeline);
+        bindFrame(commands, inputs);
+        for (const auto& [binding, image] : images)
+            commands.bind(binding, resources.image(image), *inputs.texelSampler);
+        if (push) push(commands);
+        commands.draw(3);
+    });
 }
 
 }  // namespace brume::oit

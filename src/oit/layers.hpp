@@ -53,14 +53,21 @@ struct LayerPassDesc {
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: layers write and test their depth
 };
 
+/// How a method uses one drawing of its layers.
+struct LayerUse {
+    /// Binds the method's own bindings.
+    std::function<void(gpu::Commands&, const frame::PassResources&)> bind;
+    std::uint32_t step = 0;    ///< shaders: push.step
+    VkDeviceAddress data = 0;  ///< shaders: push.data
+    frame::BufferRef order;    ///< of the media: uint[spheres + boxes]; empty: as they come
+};
+
 /// What to draw.
 enum LayerKinds : std::uint32_t { kLayersMedia = 1, kLayersSurfaces = 2, kLayersAll = 3 };
 
 /// One way of drawing layers into targets.
 class LayerPass {
   public:
-    using Bind = std::function<void(gpu::Commands&, const frame::PassResources&)>;
-
     LayerPass() = default;
     /// `kinds`: a set of LayerKinds; solids belong to the surfaces.
     LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassDesc& desc,
@@ -70,21 +77,17 @@ class LayerPass {
     static void declareReads(frame::PassBuilder& pass, const Inputs& inputs,
                              const SolidTargets& solids, frame::BufferRef order = {});
 
-    /// Draws everything, media first. `bind` binds the method's own; `step` reaches shaders as
-    /// push.step.
+    /// Draws everything, media first.
     void record(gpu::Commands& commands, const frame::PassResources& resources,
-                const Inputs& inputs, const SolidTargets& solids, const Bind& bind = {},
-                std::uint32_t step = 0, frame::BufferRef order = {}) const;
+                const Inputs& inputs, const SolidTargets& solids, const LayerUse& use = {}) const;
 
   private:
     void recordMedia(gpu::Commands& commands, const frame::PassResources& resources,
-                     const Inputs& inputs, const Bind& bind, std::uint32_t step,
-                     frame::BufferRef order) const;
+                     const Inputs& inputs, const LayerUse& use) const;
     void recordSurfaces(gpu::Commands& commands, const frame::PassResources& resources,
-                        const Inputs& inputs, const Bind& bind, std::uint32_t step) const;
+                        const Inputs& inputs, const LayerUse& use) const;
     void recordSolids(gpu::Commands& commands, const frame::PassResources& resources,
-                      const Inputs& inputs, const SolidTargets& solids, const Bind& bind,
-                      std::uint32_t step) const;
+                      const Inputs& inputs, const SolidTargets& solids, const LayerUse& use) const;
 
     bool mDrawsSolidFaces = false;
     gpu::GraphicsPipeline mMedia, mSurfaces, mSolids;
@@ -110,6 +113,21 @@ class OverLayers {
 gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> fragment,
                                   const std::vector<gpu::Binding>& bindings,
-                                  const std::vector<std::uint32_t>& specialization);
+                                  const std::vector<std::uint32_t>& specialization,
+                                  std::uint32_t pushConstantBytes = 0);
+
+/// Declares and records such a pass: reads `images` (binding, image) and draws. `push` (may be
+/// empty) sets the push constants.
+void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+                    const gpu::GraphicsPipeline& pipeline,
+                    std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
+                    const std::function<void(gpu::Commands&)>& push = {});
+
+/// A transient target as large as the image.
+frame::ImageRef makeLayerTarget(frame::FrameBuilder& frame, const Inputs& inputs,
+                                const std::string& name, VkFormat format);
+
+/// Do layers differ between channels in what they let through?
+bool isColoured(const Needs& needs);
 
 }  // namespace brume::oit

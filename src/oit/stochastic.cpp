@@ -14,11 +14,9 @@
 //         supersampling only; bricks and boxes count as homogeneous inside; empty pixels of `alpha`
 //         lose the layers' radiance.
 // Cost: per 16 samples (coloured: 8) two raster passes; bytes per pixel as info() says.
-#include <oit/bindings.hpp>
 #include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
 
-#include <shaders/common/frame_bindings.h>
 #include <shaders/oit/stochastic/stochastic.h>
 #include <spv/oit/stochastic/gather_media.frag.hpp>
 #include <spv/oit/stochastic/gather_solid.frag.hpp>
@@ -85,8 +83,6 @@ class Stochastic final : public OitMethod {
     std::vector<std::uint32_t> constants() const;
     LayerPassDesc describeStore(bool withTotal) const;
     LayerPassDesc describeGather() const;
-    frame::ImageRef makeTarget(frame::FrameBuilder& frame, const Inputs& inputs,
-                               const char* name) const;
     void declareStep(frame::FrameBuilder& frame, const Inputs& inputs, const SolidTargets& solids,
                      std::uint32_t step, frame::ImageRef total,
                      const std::vector<frame::ImageRef>& sums) const;
@@ -101,7 +97,7 @@ class Stochastic final : public OitMethod {
 
 Stochastic::Stochastic(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     : mSettings(settings),
-      mIsColoured(inputs.needs.colouredExtinction || inputs.needs.colouredSurfaces),
+      mIsColoured(isColoured(inputs.needs)),
       mSolids(device, "oit.stochastic", inputs) {
     const std::uint32_t groups = std::max(settings.samples / shader::kSamplesPerImage, 1u);
     mImagesPerChannel = std::min(groups, mIsColoured ? 2u : 4u);
@@ -152,15 +148,6 @@ LayerPassDesc Stochastic::describeGather() const {
                                                     {kFormat, gpu::Blend::additive()})};
 }
 
-frame::ImageRef Stochastic::makeTarget(frame::FrameBuilder& frame, const Inputs& inputs,
-                                       const char* name) const {
-    return frame.createImage({.name = std::string("oit.stochastic.") + name,
-                              .format = kFormat,
-                              .width = inputs.extent.width,
-                              .height = inputs.extent.height,
-                              .usage = 0});
-}
-
 void Stochastic::declareStep(frame::FrameBuilder& frame, const Inputs& inputs,
                              const SolidTargets& solids, std::uint32_t step, frame::ImageRef total,
                              const std::vector<frame::ImageRef>& sums) const {
@@ -170,20 +157,21 @@ void Stochastic::declareStep(frame::FrameBuilder& frame, const Inputs& inputs,
     LayerPass::declareReads(store, inputs, solids);
     store.color(total, load);
     for (std::uint32_t i = 0; i < imageCount(); ++i) {
-        samples.push_back(makeTarget(frame, inputs, "samples"));
+        samples.push_back(makeLayerTarget(frame, inputs, "oit.stochastic.samples", kFormat));
         const float far = shader::kNoSample;
         store.color(samples.back(), gpu::LoadOp::Clear, {far, far, far, far});
     }
     store.record([this, inputs, solids, step](gpu::Commands& commands,
                                               const frame::PassResources& resources) {
-        (step == 0 ? mStore : mStoreMore).record(commands, resources, inputs, solids, {}, step);
+        (step == 0 ? mStore : mStoreMore)
+            .record(commands, resources, inputs, solids, {.step = step});
     });
 
     frame::PassBuilder& gather = frame.addPass("oit.stochastic.gather");
     LayerPass::declareReads(gather, inputs, solids);
     for (const frame::ImageRef image : samples) gather.reads(image, Access::FragmentSample);
     for (const frame::ImageRef sum : sums) gather.color(sum, load);
-    const LayerPass::Bind bind = [inputs, samples](gpu::Commands& commands,
+    const auto bind = [inputs, samples](gpu::Commands& commands,
                                                    const frame::PassResources& resources) {
         // Bindings that the specialised shader does not read get any of them.
         for (std::uint32_t i = 0; i < shader::kMaxSampleImages; ++i)
@@ -193,37 +181,22 @@ void Stochastic::declareStep(frame::FrameBuilder& frame, const Inputs& inputs,
     };
     gather.record([this, inputs, solids, step, bind](gpu::Commands& commands,
                                                      const frame::PassResources& resources) {
-        mGather.record(commands, resources, inputs, solids, bind, step);
+        mGather.record(commands, resources, inputs, solids, {.bind = bind, .step = step});
     });
 }
 
 void Stochastic::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     const SolidTargets solids = mSolids.declare(frame, inputs);
-    const frame::ImageRef total = makeTarget(frame, inputs, "total");
-    std::vector<frame::ImageRef> sums = {makeTarget(frame, inputs, "sum")};
-    if (mIsColoured) sums.push_back(makeTarget(frame, inputs, "weights"));
+    const frame::ImageRef total = makeLayerTarget(frame, inputs, "oit.stochastic.total", kFormat);
+    std::vector<frame::ImageRef> sums = {makeLayerTarget(frame, inputs, "oit.stochastic.sum", kFormat)};
+    if (mIsColoured) sums.push_back(makeLayerTarget(frame, inputs, "oit.stochastic.weights", kFormat));
     for (std::uint32_t step = 0; step < mPassCount; ++step)
         declareStep(frame, inputs, solids, step, total, sums);
 
-    frame::PassBuilder& resolve = frame.addPass("oit.stochastic.resolve");
-    for (const frame::ImageRef image :
-         {inputs.opaqueT, inputs.opaqueColor, total, sums.front(), sums.back()})
-        resolve.reads(image, Access::FragmentSample);
-    resolve.color(inputs.result, gpu::LoadOp::DontCare);
-    resolve.record([this, inputs, total, sums](gpu::Commands& commands,
-                                               const frame::PassResources& resources) {
-        commands.bindGraphics(mResolve);
-        bindFrame(commands, inputs);
-        const auto bind = [&](std::uint32_t binding, frame::ImageRef image) {
-            commands.bind(binding, resources.image(image), *inputs.texelSampler);
-        };
-        bind(shader::kBindingOpaqueT, inputs.opaqueT);
-        bind(shader::kBindingOpaqueColor, inputs.opaqueColor);
-        bind(shader::kBindingStochasticTotal, total);
-        bind(shader::kBindingStochasticSum, sums.front());
-        bind(shader::kBindingStochasticWeights, sums.back());
-        commands.draw(3);
-    });
+    declareResolve(frame, inputs, "oit.stochastic.resolve", mResolve,
+                   {{shader::kBindingStochasticTotal, total},
+                    {shader::kBindingStochasticSum, sums.front()},
+                    {shader::kBindingStochasticWeights, sums.back()}});
 }
 
 }  // namespace

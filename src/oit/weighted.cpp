@@ -15,11 +15,9 @@
 // Limits: layers that overlap in depth get a mean, not an order: wrong where near layers hide far
 //         ones of another radiance; diffusion and refraction see only the opaque background.
 // Cost: one raster pass, one resolve; bytes per pixel as info() says.
-#include <oit/bindings.hpp>
 #include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
 
-#include <shaders/common/frame_bindings.h>
 #include <shaders/oit/weighted/weighted.h>
 #include <spv/oit/weighted/media.frag.hpp>
 #include <spv/oit/weighted/resolve.frag.hpp>
@@ -119,8 +117,7 @@ class Weighted final : public OitMethod {
 
 Weighted::Weighted(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     : mSettings(settings),
-      mIsColoured(inputs.needs.colouredExtinction || inputs.needs.colouredSurfaces ||
-                  (inputs.needs.diffusion && settings.diffusion)),
+      mIsColoured(isColoured(inputs.needs) || (inputs.needs.diffusion && settings.diffusion)),
       mDiffuses(inputs.needs.diffusion && settings.diffusion),
       mRefracts(inputs.needs.surfaces && settings.refraction),
       mSolids(device, "oit.weighted", inputs) {
@@ -214,27 +211,14 @@ frame::PassBuilder& Weighted::addStore(frame::FrameBuilder& frame, const char* n
 void Weighted::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
                               const Targets& full, const Targets& low) const {
     // Bindings that the specialised shader does not read get any image.
-    const std::vector<std::pair<std::uint32_t, frame::ImageRef>> images = {
-        {shader::kBindingOpaqueT, inputs.opaqueT},
-        {shader::kBindingOpaqueColor, inputs.opaqueColor},
-        {shader::kBindingWeightedSum, full.sum},
-        {shader::kBindingWeightedDepth, full.depth},
-        {shader::kBindingWeightedFine, full.fine ? full.fine : full.sum},
-        {shader::kBindingWeightedOffset, full.offset ? full.offset : full.sum},
-        {shader::kBindingWeightedLowSum, isLow() ? low.sum : full.sum},
-        {shader::kBindingWeightedLowDepth, isLow() ? low.depth : full.sum},
-        {shader::kBindingWeightedLowFine, low.fine ? low.fine : full.sum}};
-    frame::PassBuilder& pass = frame.addPass("oit.weighted.resolve");
-    for (const auto& [binding, image] : images) pass.reads(image, Access::FragmentSample);
-    pass.color(inputs.result, gpu::LoadOp::DontCare);
-    pass.record(
-        [this, inputs, images](gpu::Commands& commands, const frame::PassResources& resources) {
-            commands.bindGraphics(mResolve);
-            bindFrame(commands, inputs);
-            for (const auto& [binding, image] : images)
-                commands.bind(binding, resources.image(image), *inputs.texelSampler);
-            commands.draw(3);
-        });
+    oit::declareResolve(frame, inputs, "oit.weighted.resolve", mResolve,
+                        {{shader::kBindingWeightedSum, full.sum},
+                         {shader::kBindingWeightedDepth, full.depth},
+                         {shader::kBindingWeightedFine, full.fine ? full.fine : full.sum},
+                         {shader::kBindingWeightedOffset, full.offset ? full.offset : full.sum},
+                         {shader::kBindingWeightedLowSum, isLow() ? low.sum : full.sum},
+                         {shader::kBindingWeightedLowDepth, isLow() ? low.depth : full.sum},
+                         {shader::kBindingWeightedLowFine, low.fine ? low.fine : full.sum}});
 }
 
 void Weighted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {

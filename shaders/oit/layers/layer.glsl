@@ -28,6 +28,9 @@ vec2 layerPixel() { return gl_FragCoord.xy * float(kScale); }
 
 float opaqueDistance() { return texelFetch(opaqueT, ivec2(layerPixel()), 0).x; }
 
+// What orders layers that are not mixed: the middle, because many media may begin at the eye.
+float layerKey(Layer layer) { return 0.5 * (layer.t.x + layer.t.y); }
+
 float meanOf(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
 // -ln(1 - x) for 0 <= x <= 1: as 2 artanh(x / (2 - x)) where 1 - x has lost digits.

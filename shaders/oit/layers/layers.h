@@ -9,6 +9,7 @@ BRUME_STRUCTS_BEGIN
 struct LayerPush {
     uint64_t keys;   // sort: uint[count]
     uint64_t order;  // uint[count], media in drawing order; 0: as they come
+    uint64_t data;   // a method's own buffer
     uint count;      // sphereCount + boxCount
     uint mesh;       // surfaces: which mesh is drawn
     uint step;       // of a method that draws its layers several times
@@ -33,6 +34,6 @@ BRUME_CONST float kMaxDepth = 80.0f;
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(offsetof(brume::shader::LayerPush, step) == 24);
+static_assert(offsetof(brume::shader::LayerPush, step) == 32);
 #endif
 #endif

@@ -17,8 +17,8 @@ const vec3 kNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
 const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
 
 // Integral of the density over [t.x, t.y].
-float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
-    LocalRay local = localRay(ray, box, volume, 0.0);
+float boxDensityLength(RealRay ray, BoxData box, VolumeData volume, vec2 t) {
+    LocalRay local = localRay(ray, box, volume, Real(0));
     float sum = 0.0, position = t.x;
     for (int i = 0; i < 64 && position < t.y; ++i) {
         float target = min(nextPlane(box, local, position), t.y);
@@ -30,19 +30,20 @@ float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
 }
 
 SphereData varyingSphere() {
-    return SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u,
+    return SphereData(centerRadius.xyz, vec3(0), centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u,
                       kind.y);
 }
 
 // False where the ray misses or meets something opaque before.
 bool findInterval(Ray ray, float limit, out vec2 t, out float densityLength) {
+    RealRay realRay = RealRay(Real3(ray.origin), Real3(ray.direction));
     if (kBoxes && kind.z != 0u) {
         BoxData box = boxes[kind.z - 1u];
         VolumeData volume = volumes[box.volume];
-        LocalRay local = localRay(ray, box, volume, 0.0);
+        LocalRay local = localRay(realRay, box, volume, Real(0));
         if (!intersectBox(local.origin, local.direction, box.size, t) || t.x >= limit) return false;
         t.y = min(t.y, limit);
-        densityLength = boxDensityLength(ray, box, volume, t);
+        densityLength = boxDensityLength(realRay, box, volume, t);
         return true;
     }
     if (!intersectSphere(ray.origin, ray.direction, centerRadius.xyz, centerRadius.w, t) ||
@@ -51,7 +52,7 @@ bool findInterval(Ray ray, float limit, out vec2 t, out float densityLength) {
     t.y = min(t.y, limit);
     float length = t.y - t.x;
     densityLength =
-        length * (kVarying ? dot(kWeights, sphereDensities(ray, varyingSphere(), t.x,
+        length * (kVarying ? dot(kWeights, sphereDensities(realRay, varyingSphere(), Real(t.x),
                                                            length * kNodes))
                            : tintDensity.w);
     return true;
