@@ -11,6 +11,7 @@
 #include <spv/oit/media_bins/box_rects.comp.hpp>
 #include <spv/oit/media_bins/gather.comp.hpp>
 #include <spv/oit/media_bins/keys.comp.hpp>
+#include <spv/oit/media_bins/sort.comp.hpp>
 
 #include <algorithm>
 
@@ -39,11 +40,16 @@ gpu::Buffer makeUints(gpu::Device& device, const std::string& name, std::uint64_
 
 }  // namespace
 
-MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs)
+std::uint32_t countTiles(VkExtent2D extent) {
+    return (extent.width + shader::kTileSize - 1) / shader::kTileSize *
+           ((extent.height + shader::kTileSize - 1) / shader::kTileSize);
+}
+
+MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs,
+                     bool areListsSorted)
     : mDevice(&device),
       mName(name),
-      mTileCount((inputs.extent.width + shader::kTileSize - 1) / shader::kTileSize *
-                 ((inputs.extent.height + shader::kTileSize - 1) / shader::kTileSize)),
+      mTileCount(countTiles(inputs.extent)),
       mIdentityKeys(makePipeline(device, name + ".identity_keys", spv::oit_media_bins_keys_comp,
                                  {kSpheresBinding}, {1})),
       mDistanceKeys(makePipeline(device, name + ".distance_keys", spv::oit_media_bins_keys_comp,
@@ -59,6 +65,8 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
           makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
       mPrefixSum(device) {
     const std::uint64_t sphereBytes = std::max(inputs.sphereCount, 1u) * sizeof(shader::SphereData);
+    if (areListsSorted)
+        mSortLists = makePipeline(device, name + ".sort_lists", spv::oit_media_bins_sort_comp, {});
     if (inputs.sphereCount > 0) mSort.emplace(device, name + ".sort", inputs.sphereCount);
     mKeys = makeUints(device, name + ".keys", inputs.sphereCount);
     mValues = makeUints(device, name + ".values", inputs.sphereCount);
@@ -108,6 +116,15 @@ void MediaBins::recordSort(gpu::Commands& commands, const Inputs& inputs,
     mSort->record(commands, push.keys, push.values, push.count);
     commands.computeBarrier();
     run(mGather);
+}
+
+void MediaBins::recordSortLists(gpu::Commands& commands, const Inputs& inputs) const {
+    commands.computeBarrier();
+    commands.bindCompute(mSortLists);
+    bindFrame(commands, inputs);
+    commands.pushConstants(shader::BinPush{.counts = mSpheres.offsets.deviceAddress(),
+                                           .pairs = mSpheres.pairs.deviceAddress()});
+    commands.dispatch((mTileCount + 63) / 64);
 }
 
 void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
@@ -196,6 +213,7 @@ void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs)
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources&) {
         for (const Set* set : {&mSpheres, &mBoxes})
             if (set->count > 0) recordBin(commands, inputs, *set, mBinScatter);
+        if (mSortLists && mSpheres.count > 0) recordSortLists(commands, inputs);
     });
 }
 

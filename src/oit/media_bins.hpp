@@ -11,12 +11,17 @@
 
 namespace brume::oit {
 
+/// How many screen tiles cover an image.
+std::uint32_t countTiles(VkExtent2D extent);
+
 /// Count, scan, scatter: the memory for the tiles' lists is known before any of it is written.
-/// Lists are nearly, not exactly, in the order of distance (spheres; boxes in any order).
+/// Spheres stand in the order of their smallest possible distances, exactly if the lists are
+/// sorted, else nearly; boxes in any order.
 class MediaBins {
   public:
     /// `name` of the passes' prefix, e.g. "oit.linked_list".
-    MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs);
+    MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs,
+              bool areListsSorted = false);
 
     /// Pass "<name>.bin": sorts, and counts how many media touch each tile.
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
@@ -55,6 +60,7 @@ class MediaBins {
     void recordSort(gpu::Commands& commands, const Inputs& inputs,
                     const gpu::Buffer& spheres) const;
     void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
+    void recordSortLists(gpu::Commands& commands, const Inputs& inputs) const;
     void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                    const gpu::ComputePipeline& pipeline) const;
 
@@ -62,6 +68,7 @@ class MediaBins {
     std::string mName;
     std::uint32_t mTileCount;
     gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mBinCount, mBinScatter;
+    gpu::ComputePipeline mSortLists;
     gpu::PrefixSum mPrefixSum;
     std::optional<gpu::RadixSort> mSort;
     gpu::Buffer mKeys, mValues, mSortedSpheres;

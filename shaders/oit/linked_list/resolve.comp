@@ -95,7 +95,7 @@ void advance(float limit) {
 
 void main() {
     uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    uint tile = push.firstTile + bandTile;
+    uint tile = tileAt(min(bandTile, push.tileCount - 1u));
     uvec2 pixel =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
     if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
@@ -109,7 +109,7 @@ void main() {
     ray = makeRay(vec2(pixel) + 0.5);
     float limit = min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar);
 
-    if (kRounds && push.round > 0u) {
+    if (kRounds && push.step > 0u) {
         state = StateArray(push.states).at[index];
         if (state.stage >= kStageDone) return;
     } else {
@@ -120,6 +120,6 @@ void main() {
     vec3 radiance = state.path.radiance + rest * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
     imageStore(result, ivec2(pixel), vec4(radiance, 1.0));
     if (kRounds) StateArray(push.states).at[index] = state;
-    if (state.stage != kStageDone && push.round + 1u == push.roundCount)
+    if (state.stage != kStageDone && push.step + 1u == push.roundCount)
         atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }
