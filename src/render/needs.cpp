@@ -35,6 +35,19 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
+/// Whether one medium and one tint are all there is, under light that is the same everywhere.
+bool hasOneSource(const PreparedScene& prepared) {
+    const scene::Scene& scene = prepared.scene;
+    for (const scene::Light& light : scene.lights)
+        if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
+            return false;
+    if (!scene.effects.empty() || prepared.spheres.empty()) return false;
+    const scene::MediumSphere& first = prepared.spheres.front();
+    return std::all_of(prepared.spheres.begin(), prepared.spheres.end(), [&](const auto& sphere) {
+        return sphere.medium == first.medium && sphere.tint == first.tint;
+    });
+}
+
 }  // namespace
 
 oit::Needs findNeeds(const PreparedScene& prepared) {
@@ -55,6 +68,8 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         ++needs.lights;
         if (light.type != scene::LightType::Directional) needs.varyingLight = true;
     }
+    needs.oneSource = hasOneSource(prepared);
+    needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
 
@@ -69,6 +84,8 @@ std::string describe(const oit::Needs& needs) {
            line("varyingLight", needs.varyingLight, "point or spot lights on media") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
+           line("oneSource", needs.oneSource, "all spheres of one medium, tint and light") +
+           line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
                        needs.lights);
 }
