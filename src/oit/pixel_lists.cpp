@@ -7,11 +7,14 @@
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
 #include <shaders/oit/linked_list/lists.h>
+#include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/linked_list/count.comp.hpp>
+#include <spv/oit/linked_list/resolve.comp.float64.hpp>
 #include <spv/oit/linked_list/resolve.comp.hpp>
 #include <spv/oit/linked_list/store.comp.hpp>
 #include <spv/oit/linked_list/surface_count.frag.hpp>
+#include <spv/oit/linked_list/surface_store.frag.float64.hpp>
 #include <spv/oit/linked_list/surface_store.frag.hpp>
 #include <spv/oit/linked_list/totals.comp.hpp>
 
@@ -41,11 +44,18 @@ gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& na
              .specialization = std::move(specialization)}};
 }
 
+/// The finer of two builds of a shader, where the device has the numbers for it.
+std::span<const std::uint32_t> choose(const gpu::Device& device,
+                                      std::span<const std::uint32_t> float32,
+                                      std::span<const std::uint32_t> float64) {
+    return device.features().shaderFloat64 ? float64 : float32;
+}
+
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
                                           std::span<const std::uint32_t> spirv) {
     return {device,
             {.name = name,
-             .vertexSpirv = spv::common_mesh_vert,
+             .vertexSpirv = choose(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
              .fragmentSpirv = spirv,
              .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
              .pushConstantBytes = sizeof(shader::ListPush)}};
@@ -75,8 +85,10 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
     if (mNeeds.surfaces) {
         mSurfaceCount = makeSurfacePipeline(device, name + ".surface_count",
                                             spv::oit_linked_list_surface_count_frag);
-        mSurfaceStore = makeSurfacePipeline(device, name + ".surface_store",
-                                            spv::oit_linked_list_surface_store_frag);
+        mSurfaceStore =
+            makeSurfacePipeline(device, name + ".surface_store",
+                                choose(device, spv::oit_linked_list_surface_store_frag,
+                                       spv::oit_linked_list_surface_store_frag_float64));
     }
     mCounters = makeBuffer("counters", sizeof(shader::ListCounters));
     mCountersRead =
@@ -109,7 +121,9 @@ void PixelLists::setTiles(std::span<const std::uint32_t> tiles, std::uint32_t sc
 gpu::ComputePipeline PixelLists::makeResolve() const {
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     return makeListPipeline(
-        *mDevice, mName + ".resolve", spv::oit_linked_list_resolve_comp,
+        *mDevice, mName + ".resolve",
+        choose(*mDevice, spv::oit_linked_list_resolve_comp,
+               spv::oit_linked_list_resolve_comp_float64),
         join(mediaBindings(), {kOpaqueT,
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                                {shader::kBindingResult, gpu::BindingType::StorageImage}}),

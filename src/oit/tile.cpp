@@ -17,7 +17,9 @@
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/tile/tile.h>
 #include <spv/common/mesh.vert.hpp>
+#include <spv/oit/tile/classify.comp.float64.hpp>
 #include <spv/oit/tile/classify.comp.hpp>
+#include <spv/oit/tile/composite.comp.float64.hpp>
 #include <spv/oit/tile/composite.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
 
@@ -79,11 +81,18 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
       mNeeds(inputs.needs),
       mTileCount(countTiles(inputs.extent)),
       mBins(device, "oit.tile", inputs, true) {
-    mClassify = makePipeline("classify", spv::oit_tile_classify_comp, {});
-    mComposite =
-        makePipeline("composite", spv::oit_tile_composite_comp,
-                     {{shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-                      {shader::kBindingTileResult, gpu::BindingType::StorageImage}});
+    // Double precision shows where media are dense, and not beside what an early stop leaves out.
+    const bool isFine = settings.epsilon == 0 && device.features().shaderFloat64;
+    const auto choose = [&](std::span<const std::uint32_t> float32,
+                            std::span<const std::uint32_t> float64) {
+        return isFine ? float64 : float32;
+    };
+    mClassify = makePipeline(
+        "classify", choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64), {});
+    mComposite = makePipeline(
+        "composite", choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
+        {{shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+         {shader::kBindingTileResult, gpu::BindingType::StorageImage}});
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",

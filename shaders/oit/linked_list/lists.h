@@ -8,7 +8,7 @@ BRUME_STRUCTS_BEGIN
 
 // A list entry is a uvec2: the bits of the distance at which it begins (a float >= 0, so that they
 // sort as an integer), and kind << kKindShift | index. Pixels are numbered tile by tile from the
-// band's first slot, 64 to a tile, row by row; the entries of pixel p are
+// band's first tile, 64 to a tile, row by row; the entries of pixel p are
 // entries[offsets[p] .. offsets[p + 1]), media first, then surfaces, each sorted; its surface
 // records are records[surfaceOffsets[p] .. surfaceOffsets[p + 1]).
 BRUME_CONST uint kKindShift = 30u;
@@ -52,6 +52,7 @@ struct SurfaceRecord {
     vec3 scattering;    // solid: 1/m
     uint face;          // kFaceThin, kFaceFront, kFaceBack
     uint rank;          // breaks ties between equal distances
+    float distanceLo;   // what rounding has taken from the distance in the entry
 };
 
 BRUME_CONST uint kFaceThin = 0u;
@@ -83,8 +84,9 @@ struct PixelState {
     uint surface;  // of the surfaces
     uint open;     // see constant.glsl and varying.glsl
     uint openBoxes;
-    float position;  // of the last event
-    float offset;    // distance behind it
+    float position;    // of the last event
+    float positionLo;  // what rounding has taken from it
+    float offset;      // distance behind it
     float stepLimit;
     Path path;
     Sums solids;
@@ -118,7 +120,7 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 120);
-static_assert(sizeof(brume::shader::SurfaceRecord) == 48);
-static_assert(sizeof(brume::shader::PixelState) == 212);
+static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
+static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif
 #endif

@@ -26,7 +26,8 @@ void meetSphere(uint row, SphereData sphere) {
         runs[row].medium = sphere.medium;
         runs[row].tint = sphere.tint;
     }
-    needsLists = needsLists || chord.enter < runs[row].reachBefore;
+    const float kMargin = 1.000001;  // rounding must not hide an overlap
+    needsLists = needsLists || chord.enter < runs[row].reachBefore * kMargin;
     runs[row].reach = max(runs[row].reach, chord.enter + chord.span);
 }
 

@@ -4,7 +4,7 @@
 #define BRUME_OIT_TILE_COLUMN_GLSL
 #extension GL_EXT_control_flow_attributes : require
 #include "../../common/bindings.glsl"
-#include "../../common/camera.glsl"
+#include "../../common/chords.glsl"
 #include "../../gpu/address.glsl"
 #include "tile.h"
 
@@ -21,7 +21,7 @@ layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 const uint kRows = kTileSize;
 
 uvec2 corner;  // the column's topmost pixel
-Ray rays[kRows];
+RealRay rays[kRows];
 float limits[kRows];  // distance of the opaque surface; < 0 outside the image
 
 // False behind the last tile.
@@ -35,29 +35,26 @@ bool beginColumn(out uint tile) {
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         uvec2 pixel = corner + uvec2(0u, row);
         bool inside = all(lessThan(pixel, frame.size));
-        rays[row] = makeRay(vec2(pixel) + 0.5);
-        if (!kOrthographic) rays[row].origin = vec3(0);
+        rays[row] = makeRealRay(vec2(pixel) + 0.5);
+        if (!kOrthographic) rays[row].origin = Real3(0);
         limits[row] = inside ? texelFetch(opaqueT, ivec2(pixel), 0).x : -1.0;
     }
     return true;
 }
 
-// A ray's way through a sphere in front of the opaque surface: where it enters, and how far it goes;
-// 0 where it misses. The same arithmetic as intersectSphere().
+// A ray's way through a sphere in front of the opaque surface: where it enters, and how far it
+// goes; 0 where it misses.
 struct Chord {
     float enter, span;
-    float before, behind;  // from the sphere's own ends to those of the visible part
+    float before, behind;  // from the enter back to the sphere's begin, and on to its end
 };
 
 Chord findChord(uint row, SphereData sphere) {
-    precise vec3 offset = kOrthographic ? sphere.center - rays[row].origin : sphere.center;
-    precise float middle = dot(offset, rays[row].direction);
-    precise vec3 perpendicular = offset - middle * rays[row].direction;
-    precise float h2 = sphere.radius * sphere.radius - dot(perpendicular, perpendicular);
-    precise float h = sqrt(max(h2, 0.0));
-    precise float enter = max(middle - h, 0.0);
-    precise float leave = min(middle + h, limits[row]);
-    return Chord(enter, max(leave - enter, 0.0), enter - (middle - h), middle + h - enter);
+    SphereChord whole = findSphereChord(rays[row], sphere);
+    precise Real begin = whole.middle - whole.reach, end = whole.middle + whole.reach;
+    precise Real enter = max(begin, Real(0));
+    precise Real span = max(min(end, Real(limits[row])) - enter, Real(0));
+    return Chord(float(enter), float(span), float(enter - begin), float(end - enter));
 }
 
 // Integral of the density over the chord: the smooth profile is a polynomial of degree 4 along the

@@ -40,7 +40,7 @@ void beginRows() {
             [[unroll]] for (uint row = 0u; row < kRows; ++row)
                 sources[row * kTileMedia + m] +=
                     irradiance *
-                    phaseFunction(medium.phase, medium.g, -dot(travel, rays[row].direction));
+                    phaseFunction(medium.phase, medium.g, -dot(travel, vec3(rays[row].direction)));
         }
     }
     [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
