@@ -293,7 +293,7 @@ void PixelLists::declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, 
                                                 const frame::PassResources& resources) {
         commands.bindCompute(pipeline);
         bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins->sortedSpheres());
+        bindMedia(commands, inputs, mBins->sortedSpheres(), mBins->listedBoxes(inputs));
         commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                       *inputs.texelSampler);
         shader::ListPush push = makePush(band);
@@ -377,7 +377,7 @@ void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
         [this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
             commands.bindCompute(mResolve);
             bindFrame(commands, inputs);
-            bindMedia(commands, inputs, mBins->sortedSpheres());
+            bindMedia(commands, inputs, mBins->sortedSpheres(), mBins->listedBoxes(inputs));
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
             commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),

@@ -8,7 +8,7 @@
 //         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
 //         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
-//         largest radiance behind (counters stoppedColumns, stoppedAtPpm).
+//         largest radiance behind (counters stopped, stoppedAtPpm).
 // Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
 #include <oit/bindings.hpp>
 #include <oit/pixel_lists.hpp>
@@ -22,6 +22,8 @@
 #include <spv/oit/tile/composite.comp.float64.hpp>
 #include <spv/oit/tile/composite.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/volumes.comp.float64.hpp>
+#include <spv/oit/tile/volumes.comp.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -50,29 +52,38 @@ class Tile final : public OitMethod {
     std::map<std::string, std::uint64_t> bytes() const override;
 
   private:
+    /// Tiles that one pipeline visits.
+    struct Group {
+        gpu::ComputePipeline pipeline;
+        std::uint32_t threadsPerTile = 0;
+        std::uint32_t tileCount = 0;
+        gpu::Buffer tiles;  ///< uint[tileCount]
+    };
+
     gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
                                       const std::vector<gpu::Binding>& own) const;
     gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
                            gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
     shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
-    void setTiles(gpu::Buffer& buffer, const std::vector<std::uint32_t>& tiles) const;
+    void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
     void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
     void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
-    void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs);
+    void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
+                          bool isFirstWriter);
 
     gpu::Device* mDevice;
     Settings mSettings;
     Needs mNeeds;
     std::uint32_t mTileCount;
     MediaBins mBins;
-    gpu::ComputePipeline mClassify, mComposite;
+    Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
-    gpu::Buffer mClasses, mClassesRead, mAllTiles, mOrderedTiles, mCounters, mCountersRead;
-    std::uint32_t mOrderedCount = 0, mListCount = 0;
-    bool mIsScreenCovered = true;  // by tiles that composite writes
+    std::uint64_t mListTileCount = 0;
+    gpu::Buffer mClasses, mClassesRead, mCounters, mCountersRead;
+    bool mIsScreenCovered = true;  // by the tiles of one group
 };
 
 Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
@@ -87,12 +98,19 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                             std::span<const std::uint32_t> float64) {
         return isFine ? float64 : float32;
     };
-    mClassify = makePipeline(
-        "classify", choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64), {});
-    mComposite = makePipeline(
-        "composite", choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
-        {{shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-         {shader::kBindingTileResult, gpu::BindingType::StorageImage}});
+    const std::vector<gpu::Binding> images = {
+        {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+        {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
+    mAll = {makePipeline("classify", choose(spv::oit_tile_classify_comp,
+                                            spv::oit_tile_classify_comp_float64), {}),
+            shader::kTileSize};
+    mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
+                                                 spv::oit_tile_composite_comp_float64), images),
+                shader::kTileSize};
+    if (mNeeds.boxes && mNeeds.oneSource)
+        mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
+                                                   spv::oit_tile_volumes_comp_float64), images),
+                    shader::kTileSize * shader::kTileSize};
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",
@@ -127,9 +145,10 @@ gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,
              .memory = memory}};
 }
 
-void Tile::setTiles(gpu::Buffer& buffer, const std::vector<std::uint32_t>& tiles) const {
-    buffer = makeBuffer("tiles", 4 * tiles.size(), gpu::MemoryKind::Upload);
-    std::copy(tiles.begin(), tiles.end(), buffer.mappedAs<std::uint32_t>().begin());
+void Tile::setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const {
+    group.tileCount = static_cast<std::uint32_t>(tiles.size());
+    group.tiles = makeBuffer("tiles", 4 * tiles.size(), gpu::MemoryKind::Upload);
+    std::copy(tiles.begin(), tiles.end(), group.tiles.mappedAs<std::uint32_t>().begin());
 }
 
 shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const {
@@ -152,7 +171,7 @@ void Tile::prepare(const MeasureFunction& measure) {
     mBins.allocate();
     std::vector<std::uint32_t> all(mTileCount);
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) all[tile] = tile;
-    setTiles(mAllTiles, all);
+    setTiles(mAll, all);
     measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
         mBins.declareCount(frame, inputs);
         mBins.declareScatter(frame, inputs);
@@ -182,7 +201,7 @@ void Tile::declareMark(frame::FrameBuilder& frame, const Inputs& inputs) {
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
             drawSurfaces(commands, inputs, [&](std::uint32_t) {
-                commands.pushConstants(makePush(mAllTiles, mTileCount));
+                commands.pushConstants(makePush(mAll.tiles, mTileCount));
             });
         });
 }
@@ -194,12 +213,12 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.readsWrites(classes, Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-        commands.bindCompute(mClassify);
+        commands.bindCompute(mAll.pipeline);
         bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres());
+        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
         commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                       *inputs.texelSampler);
-        commands.pushConstants(makePush(mAllTiles, mTileCount));
+        commands.pushConstants(makePush(mAll.tiles, mTileCount));
         commands.dispatchThreads(std::uint64_t{mTileCount} * shader::kTileSize, 64);
     });
     frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
@@ -209,24 +228,25 @@ void Tile::planTiles() {
     // Sources are worked out once per ray for a few media, and where light is the same everywhere.
     const bool canComposite =
         !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
-    std::vector<std::uint32_t> empty, ordered, lists;
+    std::vector<std::uint32_t> empty, ordered, volumes, lists;
     const auto classes = mClassesRead.mappedAs<std::uint32_t>();
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         if (classes[tile] == shader::kClassEmpty)
             empty.push_back(tile);
         else if (classes[tile] == shader::kClassOrdered && canComposite)
             ordered.push_back(tile);
+        else if (classes[tile] == shader::kClassVolumes)
+            volumes.push_back(tile);
         else
             lists.push_back(tile);
     }
     // Copying the image is cheaper than visiting many empty tiles.
-    mIsScreenCovered = lists.empty() && empty.size() < mTileCount / 4;
+    mIsScreenCovered = empty.size() < mTileCount / 4 && empty.size() + ordered.size() == mTileCount;
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
-    mOrderedCount = static_cast<std::uint32_t>(ordered.size());
-    mListCount = static_cast<std::uint32_t>(lists.size());
-    setTiles(mOrderedTiles, ordered);
-    // The others are visited by nobody again.
-    mAllTiles = {};
+    setTiles(mOrdered, ordered);
+    setTiles(mVolumes, volumes);
+    mAll.tiles = {};  // not visited again
+    mListTileCount = lists.size();
     mLists.reset();
     if (lists.empty()) return;
     mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins);
@@ -246,27 +266,29 @@ void Tile::declareClear(frame::FrameBuilder& frame, const Inputs& inputs) {
     });
 }
 
-void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs) {
-    frame::PassBuilder& pass = frame.addPass("oit.tile.composite");
+void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
+                            bool isFirstWriter) {
+    frame::PassBuilder& pass = frame.addPass(group.pipeline.name());
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
     pass.readsWrites(frame.importBuffer(mCounters), Access::ComputeWrite);
-    if (mIsScreenCovered)
+    if (isFirstWriter)
         pass.writes(inputs.result, Access::ComputeWrite);
     else
         pass.readsWrites(inputs.result, Access::ComputeWrite);
-    pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-        commands.bindCompute(mComposite);
+    pass.record([this, inputs, &group](gpu::Commands& commands,
+                                       const frame::PassResources& resources) {
+        commands.bindCompute(group.pipeline);
         bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres());
+        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
         commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                       *inputs.texelSampler);
         commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
                       *inputs.texelSampler);
         commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
-        commands.pushConstants(makePush(mOrderedTiles, mOrderedCount));
-        commands.dispatchThreads(std::uint64_t{mOrderedCount} * shader::kTileSize, 64);
+        commands.pushConstants(makePush(group.tiles, group.tileCount));
+        commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
     });
 }
 
@@ -274,7 +296,12 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareCount(frame, inputs);
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
-    if (mOrderedCount > 0) declareComposite(frame, inputs);
+    bool isFirstWriter = mIsScreenCovered;
+    for (Group* group : {&mOrdered, &mVolumes}) {
+        if (group->tileCount == 0) continue;
+        declareComposite(frame, inputs, *group, isFirstWriter);
+        isFirstWriter = false;
+    }
     if (mLists) mLists->declare(frame, inputs, false);
     frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);
 }
@@ -284,9 +311,11 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     if (mLists) counters = mLists->counters();
     const auto own = mCountersRead.mappedAs<shader::TileCounters>()[0];
     counters["pairs"] = mBins.pairCount();
-    counters["tilesOrdered"] = mOrderedCount;
-    counters["tilesLists"] = mListCount;
-    counters["stoppedColumns"] = own.stopped;
+    counters["tilesOrdered"] = mOrdered.tileCount;
+    counters["tilesVolumes"] = mVolumes.tileCount;
+    counters["tilesLists"] = mListTileCount;
+    counters["exhausted"] += own.exhausted;
+    counters["stopped"] = own.stopped;
     counters["stoppedAtPpm"] =
         static_cast<std::uint64_t>(1e6 * std::bit_cast<float>(own.transmittance));
     return counters;
@@ -296,7 +325,7 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
     bytes["bins"] = mBins.bytes();
-    bytes["tiles"] = mOrderedTiles.bytes() + mClasses.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
     return bytes;
 }
 

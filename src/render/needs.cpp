@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace brume::render {
 namespace {
@@ -41,11 +43,19 @@ bool hasOneSource(const PreparedScene& prepared) {
     for (const scene::Light& light : scene.lights)
         if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
             return false;
-    if (!scene.effects.empty() || prepared.spheres.empty()) return false;
-    const scene::MediumSphere& first = prepared.spheres.front();
-    return std::all_of(prepared.spheres.begin(), prepared.spheres.end(), [&](const auto& sphere) {
-        return sphere.medium == first.medium && sphere.tint == first.tint;
-    });
+    if (!scene.effects.empty()) return false;
+    std::set<std::uint32_t> media;
+    std::set<std::array<float, 3>> tints;
+    for (const scene::MediumSphere& sphere : prepared.spheres) {
+        media.insert(sphere.medium);
+        tints.insert({sphere.tint.x, sphere.tint.y, sphere.tint.z});
+    }
+    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
+        if (prepared.volumes[i].isEmpty()) continue;
+        media.insert(scene.volumes[i].medium);
+        tints.insert({1, 1, 1});
+    }
+    return media.size() == 1 && tints.size() == 1;
 }
 
 }  // namespace
@@ -84,7 +94,7 @@ std::string describe(const oit::Needs& needs) {
            line("varyingLight", needs.varyingLight, "point or spot lights on media") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
-           line("oneSource", needs.oneSource, "all spheres of one medium, tint and light") +
+           line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
            line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
                        needs.lights);

@@ -18,7 +18,7 @@ Run runs[kRows];
 bool needsLists = false;
 
 void meetSphere(uint row, SphereData sphere) {
-    Chord chord = findChord(row, sphere);
+    Chord chord = findChord(rays[row], limits[row], sphere);
     if (chord.span <= 0.0) return;
     bool isSame = runs[row].medium == sphere.medium && runs[row].tint == sphere.tint;
     if (!isSame) {
@@ -51,9 +51,19 @@ void main() {
         if (!kOneSource)
             [[unroll]] for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
     }
-    uint boxCount =
-        UintArray(push.boxOffsets).at[tile + 1u] - UintArray(push.boxOffsets).at[tile];
-    needsLists = needsLists || boxCount > 0u;
-    uint needed = needsLists ? kClassLists : isEmpty ? kClassEmpty : kClassOrdered;
+    k = UintArray(push.boxOffsets).at[tile];
+    last = UintArray(push.boxOffsets).at[tile + 1u];
+    bool hasBoxes = k < last;
+    needsLists = needsLists || (hasBoxes && !kOneSource) || last - k > kTileLongestList;
+    last = min(last, k + kTileLongestList);
+    for (before = 0u; k < last; ++k) {
+        uint index = UintArray(push.boxPairs).at[k];
+        needsLists = needsLists || index < before;
+        before = index;
+    }
+    uint needed = needsLists ? kClassLists
+                  : hasBoxes ? kClassVolumes
+                  : isEmpty  ? kClassEmpty
+                             : kClassOrdered;
     atomicMax(UintArray(push.classes).at[tile], needed);
 }

@@ -10,7 +10,6 @@
 
 layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingTileResult, rgba32f) writeonly uniform image2D result;
-layout(buffer_reference, scalar) buffer CounterBlock { TileCounters counters; };
 
 vec3 sources[kRows * kTileMedia];  // radiance per metre of a medium of density 1
 // One common source: the sum of density times length, with what rounding has taken from it. Else
@@ -18,9 +17,6 @@ vec3 sources[kRows * kTileMedia];  // radiance per metre of a medium of density 
 vec3 sums[kRows];
 vec3 lost[kRows];
 vec3 radiances[kRows];
-
-vec3 expChannels(vec3 x) { return kColoured ? exp(x) : vec3(exp(x.x)); }
-vec3 perChannel(vec3 x) { return kColoured ? x : vec3(x.x); }
 
 MediumData loadMedium(uint m) { return media[kOneSource ? spheres[0].medium : m]; }
 
@@ -52,18 +48,10 @@ void beginRows() {
     }
 }
 
-// Kahan's sum.
-void addLength(uint row, float value) {
-    precise float next = value - lost[row].x;
-    precise float sum = sums[row].x + next;
-    lost[row].x = (sum - sums[row].x) - next;
-    sums[row].x = sum;
-}
-
 void crossSphere(uint row, SphereData sphere, vec3 extinction) {
-    float length = densityLength(sphere, findChord(row, sphere));
+    float length = densityLength(sphere, findChord(rays[row], limits[row], sphere));
     if (kOneSource) {
-        addLength(row, length);
+        addLength(sums[row].x, lost[row].x, length);
         return;
     }
     vec3 depth = min(extinction * length, vec3(1e30));
@@ -111,10 +99,8 @@ void main() {
     uint tile;
     if (!beginColumn(tile)) return;
     beginRows();
-    vec3 first = perChannel(media[kOneSource ? spheres[0].medium : 0u].extinction);
-    float least = min(first.x, min(first.y, first.z));
-    // Of one source: the sum at which the transmittance falls below epsilon.
-    float enough = push.epsilon > 0.0 && least > 0.0 ? -log(push.epsilon) / least : 3e38;
+    vec3 first = perChannel(loadMedium(0u).extinction);
+    float enough = findEnough(first);
     float worst = kOneSource ? 0.0 : 1.0;
     uint k = UintArray(push.sphereOffsets).at[tile];
     uint last = UintArray(push.sphereOffsets).at[tile + 1u];
@@ -126,10 +112,6 @@ void main() {
         worst = findWorst();
         if (kOneSource ? worst > enough : worst < push.epsilon) break;
     }
-    if (k < last) {
-        float rest = kOneSource ? exp(-least * worst) : worst;
-        atomicAdd(CounterBlock(push.counters).counters.stopped, 1u);
-        atomicMax(CounterBlock(push.counters).counters.transmittance, floatBitsToUint(rest));
-    }
+    if (k < last) countStop(kOneSource ? push.epsilon : worst);
     [[unroll]] for (uint row = 0u; row < kRows; ++row) finishRow(row, first);
 }

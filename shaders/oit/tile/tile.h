@@ -19,11 +19,13 @@ struct TilePush {
 // What the pixels of a tile need, in rising order of cost.
 BRUME_CONST uint kClassEmpty = 0u;    // no medium
 BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one common source
-BRUME_CONST uint kClassLists = 2u;    // everything else: sorted lists of each pixel
+BRUME_CONST uint kClassVolumes = 2u;  // bricks, boxes and spheres of one common source
+BRUME_CONST uint kClassLists = 3u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {
-    uint stopped;       // pixels that stopped before their last medium
+    uint stopped;        // invocations that stopped before their last medium
     uint transmittance;  // bits of the largest transmittance at which one stopped
+    uint exhausted;      // pixels at which the device may have ended the loops
 };
 
 // Media whose source the composite works out once per ray.
