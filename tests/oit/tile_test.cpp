@@ -12,7 +12,7 @@ using scene::Profile;
 
 const scene::Settings kExact = {{"epsilon", "0"}};
 /// What the quadrature of lists leaves at silhouettes of smooth spheres.
-const double kListError = 1e-4;
+const double kListError = 1e-5;
 
 /// Spheres in and around the unit cube; `sourceCount` media of different sources.
 TestScene makeCloud(int count, int sourceCount, Profile profile, double radius = 0.4) {
