@@ -37,23 +37,27 @@ const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledIm
 gpu::ComputePipeline makeListPipeline(gpu::Device& device, const char* stage,
                                       std::span<const std::uint32_t> spirv,
                                       const std::vector<gpu::Binding>& own,
-                                      std::vector<std::uint32_t> specialization) {
+                                      std::vector<std::uint32_t> specialization,
+                                      std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = fmt::format("oit.linked_list.{}", stage),
              .spirv = spirv,
              .bindings = join(frameBindings(), own),
              .pushConstantBytes = sizeof(shader::ListPush),
-             .specialization = std::move(specialization)}};
+             .specialization = std::move(specialization),
+             .constants = std::move(constants)}};
 }
 
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const char* stage,
-                                          std::span<const std::uint32_t> spirv) {
+                                          std::span<const std::uint32_t> spirv,
+                                          std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = fmt::format("oit.linked_list.surface_{}", stage),
              .vertexSpirv = spv::common_mesh_vert,
              .fragmentSpirv = spirv,
              .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
-             .pushConstantBytes = sizeof(shader::ListPush)}};
+             .pushConstantBytes = sizeof(shader::ListPush),
+             .constants = std::move(constants)}};
 }
 
 gpu::Buffer makeBuffer(gpu::Device& device, const char* name, std::uint64_t bytes,
@@ -119,7 +123,8 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
         mSurfaceCount =
             makeSurfacePipeline(device, "count", spv::oit_linked_list_surface_count_frag);
         mSurfaceStore =
-            makeSurfacePipeline(device, "store", spv::oit_linked_list_surface_store_frag);
+            makeSurfacePipeline(device, "store", spv::oit_linked_list_surface_store_frag,
+                                lightingConstants(mNeeds));
     }
     mCounters = makeBuffer(device, "counters", sizeof(shader::ListCounters));
     mCountersRead = makeBuffer(device, "counters_read", sizeof(shader::ListCounters),
@@ -137,7 +142,8 @@ gpu::ComputePipeline LinkedList::makeResolve() const {
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                                {shader::kBindingResult, gpu::BindingType::StorageImage}}),
         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
-         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia});
+         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia},
+        lightingConstants(mNeeds));
 }
 
 const MethodInfo& LinkedList::info() const { return linked_list::info(); }

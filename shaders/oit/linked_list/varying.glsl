@@ -146,7 +146,8 @@ Nodes evaluateNodes(vec3 offsets) {
     vec3 t = min(state.position + offsets, vec3(1e6));
     Scattered scattered = scatterGroup(0u, t);
     uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
-    iterations += groups * (1u + state.open + frame.lightCount);
+    iterations += groups * (1u + state.open + frame.lightCount) + shadowIterations;
+    shadowIterations = 0u;
     for (int k = 0; k < 3; ++k) {
         nodes.extinction[k] = nodes.source[k] = vec3(0);
         if (kSurfaces) {
@@ -201,8 +202,10 @@ float limitStepByLight(LightData light, float position) {
 float limitStepByLights(float position) {
     float limit = kFar;
     for (uint i = 0u; i < frame.lightCount; ++i)
-        if (lights[i].type != kLightDirectional)
-            limit = min(limit, limitStepByLight(lights[i], position));
+        limit = min(limit, min(lights[i].type != kLightDirectional
+                                   ? limitStepByLight(lights[i], position)
+                                   : kFar,
+                               shadowStep(i)));
     iterations += frame.lightCount;
     return limit;
 }
