@@ -2,7 +2,7 @@
 // The density of media along a ray: what Gauss's nodes ask for.
 #ifndef BRUME_COMMON_DENSITY_GLSL
 #define BRUME_COMMON_DENSITY_GLSL
-#include "camera.glsl"
+#include "chords.glsl"
 
 layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
 
@@ -11,10 +11,11 @@ struct LocalRay {
     vec3 origin, direction;
 };
 
-LocalRay localRay(Ray ray, BoxData box, VolumeData volume, float position) {
-    vec3 direction = volume.indexFromWorld * ray.direction;
-    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner) + direction * position,
-                    direction);
+LocalRay localRay(RealRay ray, BoxData box, VolumeData volume, Real position) {
+    Real3 fromCorner =
+        (ray.origin - makeReal(box.corner, box.cornerLo)) + ray.direction * position;
+    return LocalRay(volume.indexFromWorld * vec3(fromCorner),
+                    volume.indexFromWorld * vec3(ray.direction));
 }
 
 // The next offset behind `offset` at which the ray crosses a plane between cells.
@@ -81,15 +82,11 @@ vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
 
 // At three offsets behind `position`. From the distances to both ends of the chord, so that the
 // density keeps its digits near them.
-vec3 sphereDensities(Ray ray, SphereData sphere, float position, vec3 offsets) {
+vec3 sphereDensities(RealRay ray, SphereData sphere, Real position, vec3 offsets) {
     if (sphere.profile == kProfileConstant) return vec3(sphere.density);
-    precise vec3 offset = sphere.center - ray.origin;
-    precise float middle = dot(offset, ray.direction);
-    precise vec3 perpendicular = offset - middle * ray.direction;
-    precise float h2 = sphere.radius * sphere.radius - dot(perpendicular, perpendicular);
-    precise float h = sqrt(max(h2, 0.0));
-    precise float enter = middle - h, leave = middle + h;
-    precise float behind = position - enter, ahead = leave - position;
+    SphereChord chord = findSphereChord(ray, sphere);
+    float behind = float(position - (chord.middle - chord.reach));
+    float ahead = float((chord.middle + chord.reach) - position);
     vec3 q = max((behind + offsets) * (ahead - offsets), 0.0) / (sphere.radius * sphere.radius);
     return sphere.density * q * q;
 }

@@ -5,6 +5,7 @@
 #include "passes.h"
 
 #include "effect_block.glsl"
+#include "../common/exponential.glsl"
 #include "appearance.h"
 
 layout(local_size_x_id = 0) in;
@@ -19,13 +20,16 @@ void main() {
     uint slot = gl_GlobalInvocationID.x +
                 gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     if (slot >= totals.slots) return;
-    SphereData sphere = SphereData(vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
+    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
     if (slot < totals.counters.alive) {
         ParticleLife life = lives[slot];
         Appearance appearance = evaluateAppearance(normalisedAge(life, push.lastTick));
         vec3 position = positions[slot];
-        sphere.center = push.origin + push.axisX * position.x + push.axisY * position.y +
-                        push.axisZ * position.z;
+        sphere.center = push.origin;
+        sphere.centerLo = push.originLo;
+        addExactly(sphere.center, sphere.centerLo, push.axisX * position.x);
+        addExactly(sphere.center, sphere.centerLo, push.axisY * position.y);
+        addExactly(sphere.center, sphere.centerLo, push.axisZ * position.z);
         sphere.radius = life.lifetimeTicks < 0 ? 0 : appearance.radius * push.radiusScale;
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;

@@ -7,11 +7,14 @@
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
 #include <shaders/oit/linked_list/lists.h>
+#include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/linked_list/count.comp.hpp>
+#include <spv/oit/linked_list/resolve.comp.float64.hpp>
 #include <spv/oit/linked_list/resolve.comp.hpp>
 #include <spv/oit/linked_list/store.comp.hpp>
 #include <spv/oit/linked_list/surface_count.frag.hpp>
+#include <spv/oit/linked_list/surface_store.frag.float64.hpp>
 #include <spv/oit/linked_list/surface_store.frag.hpp>
 #include <spv/oit/linked_list/totals.comp.hpp>
 
@@ -48,12 +51,20 @@ gpu::ComputePipeline makeListPipeline(gpu::Device& device, const char* stage,
              .constants = std::move(constants)}};
 }
 
+/// The finer of two builds of a shader, where the device has the numbers for it.
+std::span<const std::uint32_t> choose(const gpu::Device& device,
+                                      std::span<const std::uint32_t> float32,
+                                      std::span<const std::uint32_t> float64) {
+    return device.features().shaderFloat64 ? float64 : float32;
+}
+
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const char* stage,
                                           std::span<const std::uint32_t> spirv,
                                           std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = fmt::format("oit.linked_list.surface_{}", stage),
-             .vertexSpirv = spv::common_mesh_vert,
+             .vertexSpirv =
+                 choose(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
              .fragmentSpirv = spirv,
              .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
              .pushConstantBytes = sizeof(shader::ListPush),
@@ -80,7 +91,7 @@ const MethodInfo& info() {
         .paper = "Barta, Kovacs: Order Independent Transparency with Per-Pixel Linked Lists, 2011",
         .exactness = Exactness::Exact,
         .passes = "1 compute (media) and 1 raster (surfaces), each twice: count, store; 1 resolve",
-        .bytesPerPixel = "16 + 8 n + 56 s for n medium intervals and s surface fragments",
+        .bytesPerPixel = "16 + 8 n + 60 s for n medium intervals and s surface fragments",
         .limits = "one screen tile's lists must fit into the budget",
         .settings = {{"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for list entries and surface records; beyond it, the screen is "
@@ -123,7 +134,9 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
         mSurfaceCount =
             makeSurfacePipeline(device, "count", spv::oit_linked_list_surface_count_frag);
         mSurfaceStore =
-            makeSurfacePipeline(device, "store", spv::oit_linked_list_surface_store_frag,
+            makeSurfacePipeline(device, "store",
+                                choose(device, spv::oit_linked_list_surface_store_frag,
+                                       spv::oit_linked_list_surface_store_frag_float64),
                                 lightingConstants(mNeeds));
     }
     mCounters = makeBuffer(device, "counters", sizeof(shader::ListCounters));
@@ -137,7 +150,9 @@ LinkedList::LinkedList(gpu::Device& device, const Inputs& inputs,
 gpu::ComputePipeline LinkedList::makeResolve() const {
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     return makeListPipeline(
-        *mDevice, "resolve", spv::oit_linked_list_resolve_comp,
+        *mDevice, "resolve",
+        choose(*mDevice, spv::oit_linked_list_resolve_comp,
+               spv::oit_linked_list_resolve_comp_float64),
         join(mediaBindings(), {kOpaqueT,
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                                {shader::kBindingResult, gpu::BindingType::StorageImage}}),

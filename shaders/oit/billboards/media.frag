@@ -22,7 +22,7 @@ const vec3 kNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
 const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
 
 // Integral of the density over [t.x, t.y].
-float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
+float boxDensityLength(RealRay ray, BoxData box, VolumeData volume, vec2 t) {
     LocalRay local = localRay(ray, box, volume, 0.0);
     float sum = 0.0, position = t.x;
     for (int i = 0; i < 64 && position < t.y; ++i) {
@@ -35,7 +35,7 @@ float boxDensityLength(Ray ray, BoxData box, VolumeData volume, vec2 t) {
 }
 
 void main() {
-    Ray ray = makeRay(gl_FragCoord.xy);
+    RealRay ray = makeRealRay(gl_FragCoord.xy);
     float limit = texelFetch(opaqueT, ivec2(gl_FragCoord.xy), 0).x;
     vec2 t;
     float densityLength;
@@ -47,7 +47,7 @@ void main() {
         t.y = min(t.y, limit);
         densityLength = boxDensityLength(ray, box, volume, t);
     } else {
-        SphereData sphere = SphereData(centerRadius.xyz, centerRadius.w, tintDensity.xyz,
+        SphereData sphere = SphereData(centerRadius.xyz, vec3(0), centerRadius.w, tintDensity.xyz,
                                        tintDensity.w, kind.x, 0u, kind.y);
         if (!intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t) ||
             t.x >= limit)

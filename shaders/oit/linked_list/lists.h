@@ -52,6 +52,7 @@ struct SurfaceRecord {
     vec3 scattering;    // solid: 1/m
     uint face;          // kFaceThin, kFaceFront, kFaceBack
     uint rank;          // breaks ties between equal distances
+    float distanceLo;   // what rounding has taken from the distance in the entry
 };
 
 BRUME_CONST uint kFaceThin = 0u;
@@ -83,8 +84,9 @@ struct PixelState {
     uint surface;  // of the surfaces
     uint open;     // see constant.glsl and varying.glsl
     uint openBoxes;
-    float position;  // of the last event
-    float offset;    // distance behind it
+    float position;    // of the last event
+    float positionLo;  // what rounding has taken from it
+    float offset;      // distance behind it
     float stepLimit;
     Path path;
     Sums solids;
@@ -118,7 +120,7 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 128);
-static_assert(sizeof(brume::shader::SurfaceRecord) == 48);
-static_assert(sizeof(brume::shader::PixelState) == 212);
+static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
+static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif
 #endif

@@ -47,14 +47,14 @@ void sliceMedia(inout uint first, inout uint last) {
 }
 
 bool hitsSphere(SphereData sphere, uint row, out vec2 t) {
-    return intersectSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
-                           sphere.radius, t) &&
+    return mayHitSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
+                        sphere.radius, t) &&
            t.x < columnLimits[row];
 }
 
 bool hitsBox(BoxData box, VolumeData volume, uint row, out vec2 t) {
-    return intersectBox(volume.indexFromWorld * (columnRays[row].origin - box.corner),
-                        volume.indexFromWorld * columnRays[row].direction, box.size, t) &&
+    return mayHitBox(volume.indexFromWorld * (columnRays[row].origin - box.corner),
+                     volume.indexFromWorld * columnRays[row].direction, box.size, t) &&
            t.x < columnLimits[row];
 }
 

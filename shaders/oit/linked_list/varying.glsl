@@ -32,9 +32,7 @@ struct Nodes {
 // by loops of their own, because on some devices a branch that is not taken costs as much as one
 // that is.
 //
-// A place on the ray is the distance of the last event, state.position, and an offset behind it:
-// together they are finer than the rounding of the distance, which dense media need where they
-// begin.
+// A place on the ray is the distance of the last event, `position`, and an offset behind it.
 
 void openMedium(uvec2 entry, bool isBox) {
     if (kBoxes && isBox) {
@@ -83,12 +81,12 @@ Gathered gatherOpen(uint base, vec3 offsets) {
         for (uint i = 0u; i < state.openBoxes; ++i) {
             BoxData box = boxes[loadEntry(i).y & kIndexMask];
             VolumeData volume = volumes[box.volume];
-            LocalRay local = localRay(ray, box, volume, state.position);
+            LocalRay local = localRay(ray, box, volume, position);
             addToGroup(sum, base, volume.medium, boxDensities(box, local, offsets), vec3(1));
         }
     for (uint i = kBoxes ? state.openBoxes : 0u; i < state.open; ++i) {
         SphereData sphere = spheres[loadEntry(i).y & kIndexMask];
-        addToGroup(sum, base, sphere.medium, sphereDensities(ray, sphere, state.position, offsets),
+        addToGroup(sum, base, sphere.medium, sphereDensities(ray, sphere, position, offsets),
                    sphere.tint);
     }
     return sum;
@@ -117,8 +115,8 @@ Scattered scatterGroup(uint base, vec3 t) {
         for (uint k = 0u; k < 3u; ++k) {
             // Directional light is the same at all nodes.
             if (kVaryingLight || k == 0u)
-                irradiance = lightIrradiance(light, i, ray.origin + ray.direction * t[k], travel);
-            float cosTheta = -dot(travel, ray.direction);
+                irradiance = lightIrradiance(light, i, vec3(ray.origin) + rayDirection * t[k], travel);
+            float cosTheta = -dot(travel, rayDirection);
             scattered.isotropic[k] += irradiance * phaseIsotropic();
             for (uint g = 0u; g < kGroup; ++g)
                 scattered.group[3u * g + k] +=
@@ -143,7 +141,7 @@ void addGroup(inout Nodes nodes, uint base, Gathered sum, Scattered scattered) {
 // Extinction and source of everything that is open, at three distances.
 Nodes evaluateNodes(vec3 offsets) {
     Nodes nodes;
-    vec3 t = min(state.position + offsets, vec3(1e6));
+    vec3 t = min(float(position) + offsets, vec3(1e6));
     Scattered scattered = scatterGroup(0u, t);
     uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
     iterations += groups * (1u + state.open + frame.lightCount) + shadowIterations;
@@ -166,8 +164,8 @@ Nodes evaluateNodes(vec3 offsets) {
 
 // The next place ahead at which the ray, `offset` from the apex of a cone, crosses it.
 float nextConeCrossing(vec3 offset, vec3 axis, float cosAngle, float slack) {
-    float oa = dot(offset, axis), da = dot(ray.direction, axis), c2 = cosAngle * cosAngle;
-    float a = da * da - c2, b = oa * da - c2 * dot(offset, ray.direction);
+    float oa = dot(offset, axis), da = dot(rayDirection, axis), c2 = cosAngle * cosAngle;
+    float a = da * da - c2, b = oa * da - c2 * dot(offset, rayDirection);
     float c = oa * oa - c2 * dot(offset, offset);
     float q = -(b + (b < 0.0 ? -1.0 : 1.0) * sqrt(max(b * b - a * c, 0.0)));
     float t1 = q / (abs(a) > 1e-20 ? a : 1e-20), t2 = c / (abs(q) > 1e-20 ? q : 1e-20);
@@ -177,10 +175,10 @@ float nextConeCrossing(vec3 offset, vec3 axis, float cosAngle, float slack) {
 // A step short enough for three nodes near a point or spot light: 1/d^2 has its poles at the light,
 // and kinks where it is capped at the light's radius and at the cones of a spot, which steps must
 // not cross.
-float limitStepByLight(LightData light, float position) {
-    vec3 offset = light.position - ray.origin;
-    float nearest = dot(offset, ray.direction), ahead = nearest - position;
-    vec3 across = offset - nearest * ray.direction;
+float limitStepByLight(LightData light, float place) {
+    vec3 offset = light.position - vec3(ray.origin);
+    float nearest = dot(offset, rayDirection), ahead = nearest - place;
+    vec3 across = offset - nearest * rayDirection;
     float aside2 = dot(across, across);
     float distance = sqrt(ahead * ahead + aside2);
     float chord = sqrt(max(light.radius * light.radius - aside2, 0.0));
@@ -191,7 +189,7 @@ float limitStepByLight(LightData light, float position) {
     else if (leave > slack)
         own = min(leave, 0.5 * light.radius);
     if (light.type == kLightSpot) {
-        vec3 fromLight = position * ray.direction - offset;
+        vec3 fromLight = place * rayDirection - offset;
         float near = 1e-5 * distance;
         own = min(own, nextConeCrossing(fromLight, light.direction, light.cosInner, near));
         own = min(own, nextConeCrossing(fromLight, light.direction, light.cosOuter, near));
@@ -199,11 +197,11 @@ float limitStepByLight(LightData light, float position) {
     return max(own, slack);
 }
 
-float limitStepByLights(float position) {
+float limitStepByLights(float place) {
     float limit = kFar;
     for (uint i = 0u; i < frame.lightCount; ++i)
         limit = min(limit, min(lights[i].type != kLightDirectional
-                                   ? limitStepByLight(lights[i], position)
+                                   ? limitStepByLight(lights[i], place)
                                    : kFar,
                                shadowStep(i)));
     iterations += frame.lightCount;
@@ -246,29 +244,16 @@ float crossVarying(Nodes nodes, float distance) {
     return min(worst, 1.0);
 }
 
-// The entry and exit of the medium that an entry stands for.
-vec2 intersectMedium(uvec2 entry, bool isBox) {
-    vec2 t;
-    uint index = entry.y & kIndexMask;
-    if (kBoxes && isBox) {
-        LocalRay local = localRay(ray, boxes[index], volumes[boxes[index].volume], 0.0);
-        intersectBox(local.origin, local.direction, boxes[index].size, t);
-    } else {
-        intersectSphere(ray.origin, ray.direction, spheres[index].center, spheres[index].radius, t);
-    }
-    return t;
-}
-
-// The open medium that ends first.
-float findNextEnd(out uint leaving) {
-    float leave = kFar;
+// Where the open medium ends that ends first.
+Real findNextEnd(out uint leaving) {
+    uvec2 first = kNoEntry;
     leaving = 0u;
     for (uint i = 0u; i < state.open; ++i) {
-        float end = uintBitsToFloat(loadEntry(i).x);
-        if (end < leave) leave = end, leaving = i;
+        uvec2 entry = loadEntry(i);
+        if (entry.x < first.x) first = entry, leaving = i;
     }
     iterations += state.open;
-    return leave;
+    return first.x == kNoEntry.x ? Real(kFar) : intersectMedium(first).y;
 }
 
 // How far the next step may go, from state.offset to at most `last`.
@@ -277,12 +262,12 @@ float limitStep(float last) {
     if (kBoxes)
         for (uint i = 0u; i < state.openBoxes; ++i) {
             BoxData box = boxes[loadEntry(i).y & kIndexMask];
-            LocalRay local = localRay(ray, box, volumes[box.volume], state.position);
+            LocalRay local = localRay(ray, box, volumes[box.volume], position);
             target = min(target, nextPlane(box, local, state.offset));
         }
     iterations += state.openBoxes;
     if (kVaryingLight)
-        target = min(target, state.offset + limitStepByLights(state.position + state.offset));
+        target = min(target, state.offset + limitStepByLights(float(position) + state.offset));
     return max(min(target, state.offset + state.stepLimit), state.offset);
 }
 
@@ -304,41 +289,41 @@ bool stepTowards(float last) {
 }
 
 // From where the state says to the end of the ray, or of the round.
-void walkVarying(float limit) {
+void walkVarying(Real limit) {
     uvec2 enter = mediumEntry(), surface = surfaceEntry();
-    uint leaving;
-    float leave = findNextEnd(leaving);
+    uint leavingIndex;
+    Real leaving = findNextEnd(leavingIndex);
     while (iterations <= kIterationsPerRound) {
         ++iterations;
-        float cross = uintBitsToFloat(surface.x);
-        float event = min(min(uintBitsToFloat(enter.x), leave), min(cross, limit));
-        event = max(event, state.position);
-        bool isReached = stepTowards(event - state.position);
+        Real2 entering = enter.x == kNoEntry.x ? Real2(kFar) : intersectMedium(enter);
+        Real cross = kSurfaces ? surfaceDistance(surface) : Real(kFar);
+        Real event = max(min(min(entering.x, leaving), min(cross, limit)), position);
+        bool isReached = stepTowards(float(event - position));
         if (isOpaque(state.path) || (isReached && event >= limit)) {
             state.stage = kStageDone;
             break;
         }
         if (!isReached) continue;
-        state.position = event;
+        position = event;
         state.offset = 0.0;
         state.stepLimit = kFar;
 
-        if (kSurfaces && cross < min(uintBitsToFloat(enter.x), leave)) {
+        if (kSurfaces && cross < min(entering.x, leaving)) {
             crossSurface(state.path, state.solids, loadRecord(surface));
             ++state.surface;
             surface = surfaceEntry();
             continue;
         }
-        if (uintBitsToFloat(enter.x) <= leave) {
+        if (entering.x <= leaving) {
             bool isBox = (enter.y >> kKindShift) == kKindBox;
-            uvec2 open = uvec2(distanceKey(intersectMedium(enter, isBox).y), enter.y);
+            uvec2 open = uvec2(distanceKey(float(entering.y)), enter.y);
             ++state.medium;
             enter = mediumEntry();
             openMedium(open, isBox);
         } else {
-            closeMedium(leaving);
+            closeMedium(leavingIndex);
         }
-        leave = findNextEnd(leaving);
+        leaving = findNextEnd(leavingIndex);
     }
 }
 

@@ -20,10 +20,30 @@ uint shadowIterations = 0u;
 const vec3 kShadowNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
 const vec3 kShadowWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
 
-// Integral of the density over [t.x, t.y]; exact (a polynomial of degree 4).
+// Shadows are traced in fp32 everywhere: what it loses at the front of dense media is narrower than
+// any texel.
+bool hitShadowSphere(Ray ray, SphereData sphere, out vec2 t) {
+    return intersectSphere(vec3(0), ray.direction, (sphere.center - ray.origin) + sphere.centerLo,
+                           sphere.radius, t);
+}
+
+// Integral of the density over [t.x, t.y] of a chord; exact (a polynomial of degree 4).
 float sphereDensityLength(Ray ray, SphereData sphere, vec2 t) {
     float l = t.y - t.x;
-    return l * dot(kShadowWeights, sphereDensities(ray, sphere, t.x, l * kShadowNodes));
+    if (sphere.profile == kProfileConstant) return sphere.density * l;
+    precise vec3 offset = (sphere.center - ray.origin) + sphere.centerLo;
+    precise float middle = dot(offset, ray.direction);
+    precise vec3 perpendicular = offset - middle * ray.direction;
+    precise float h2 = sphere.radius * sphere.radius - dot(perpendicular, perpendicular);
+    precise float reach = sqrt(max(h2, 0.0));
+    vec3 place = t.x + l * kShadowNodes - middle;
+    vec3 q = max((reach + place) * (reach - place), 0.0) / (sphere.radius * sphere.radius);
+    return sphere.density * l * dot(kShadowWeights, q * q);
+}
+
+LocalRay shadowLocalRay(Ray ray, BoxData box, VolumeData volume) {
+    return LocalRay(volume.indexFromWorld * ((ray.origin - box.corner) - box.cornerLo),
+                    volume.indexFromWorld * ray.direction);
 }
 
 // The same over one cell of a brick or one ramp of a soft box, in which the density is a cubic.

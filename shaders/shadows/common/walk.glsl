@@ -17,7 +17,7 @@ void walkSpheres(ShadowMap map, uint tile, Ray ray) {
     for (; k < last; ++k) {
         SphereData sphere = ShadowSpheres(map.spheres).at[UintArray(map.spherePairs).at[k]];
         vec2 t;
-        if (!intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t)) continue;
+        if (!hitShadowSphere(ray, sphere, t)) continue;
         vec3 extinction = media[sphere.medium].extinction;
         uint pieces = sphere.profile == kProfileConstant ? 1u : kSmoothPieces;
         float step = (t.y - t.x) / float(pieces);
@@ -30,7 +30,7 @@ void walkSpheres(ShadowMap map, uint tile, Ray ray) {
 }
 
 void walkBox(BoxData box, VolumeData volume, Ray ray, uint id) {
-    LocalRay local = localRay(ray, box, volume, 0.0);
+    LocalRay local = shadowLocalRay(ray, box, volume);
     vec2 t;
     if (!intersectBox(local.origin, local.direction, box.size, t)) return;
     vec3 extinction = media[volume.medium].extinction;

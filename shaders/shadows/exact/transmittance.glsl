@@ -12,7 +12,7 @@ vec3 exactSphereDepth(ShadowMap map, uint tile, Ray ray, float end) {
     for (; k < last; ++k) {
         SphereData sphere = ShadowSpheres(map.spheres).at[UintArray(map.spherePairs).at[k]];
         vec2 t;
-        bool isHit = intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t);
+        bool isHit = hitShadowSphere(ray, sphere, t);
         t.y = min(t.y, end);
         if (isHit && t.y > t.x)
             depth += media[sphere.medium].extinction * sphereDensityLength(ray, sphere, t);
@@ -28,7 +28,7 @@ vec3 exactBoxDepth(ShadowMap map, uint tile, Ray ray, float end) {
     for (; k < last; ++k) {
         BoxData box = ShadowBoxes(map.boxes).at[UintArray(map.boxPairs).at[k]];
         VolumeData volume = ShadowVolumes(map.volumes).at[box.volume];
-        LocalRay local = localRay(ray, box, volume, 0.0);
+        LocalRay local = shadowLocalRay(ray, box, volume);
         vec2 t;
         bool isHit = intersectBox(local.origin, local.direction, box.size, t);
         t.y = min(t.y, end);
