@@ -16,13 +16,14 @@ struct Needs {
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;        ///< point or spot lights
+    bool varyingLight = false;        ///< point or spot lights, or shadows
     bool colouredExtinction = false;  ///< extinction or transmission differs between channels
     bool oneSource = false;  ///< one medium, one tint and the same light everywhere: what media
                              ///< send depends on nothing but their summed depth
     bool orthographic = false;
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
+    std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
 };
 
 /// One mesh of thin or solid triangles.

@@ -134,7 +134,8 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .pushConstantBytes = sizeof(shader::TilePush),
              .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
                                 mNeeds.colouredExtinction,
-                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u)}}};
+                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u)},
+             .constants = lightingConstants(mNeeds)}};
 }
 
 gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/needs.hpp>
+#include <shadows/store_info.hpp>
 
 #include <fmt/format.h>
 
@@ -76,7 +77,9 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
-        if (light.type != scene::LightType::Directional) needs.varyingLight = true;
+        needs.shadowStores |= shadows::storeBits(light.shadow);
+        if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
+            needs.varyingLight = true;
     }
     needs.oneSource = hasOneSource(prepared);
     needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
@@ -91,13 +94,14 @@ std::string describe(const oit::Needs& needs) {
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
-           line("varyingLight", needs.varyingLight, "point or spot lights on media") +
+           line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
            line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
-                       needs.lights);
+                       needs.lights) +
+           line("shadows", needs.shadowStores != 0, "maps of what the lights see");
 }
 
 }  // namespace brume::render

@@ -177,7 +177,8 @@ Nodes evaluateNodes(float from, float distance) {
     nodes.share = 0.0;
     Scattered scattered = scatterGroup(0u, from, distance);
     uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
-    iterations += groups * (1u + state.open + frame.lightCount);
+    iterations += groups * (1u + state.open + frame.lightCount) + shadowIterations;
+    shadowIterations = 0u;
     for (uint k = 0u; k < kNodeCount; ++k) {
         nodes.extinction[k] = nodes.source[k] = vec3(0);
         if (kSurfaces) {
@@ -233,8 +234,10 @@ float limitStepByLight(LightData light, float place) {
 float limitStepByLights(float place) {
     float limit = kFar;
     for (uint i = 0u; i < frame.lightCount; ++i)
-        if (lights[i].type != kLightDirectional)
-            limit = min(limit, limitStepByLight(lights[i], place));
+        limit = min(limit, min(lights[i].type != kLightDirectional
+                                   ? limitStepByLight(lights[i], place)
+                                   : kFar,
+                               shadowStep(i)));
     iterations += frame.lightCount;
     return limit;
 }
