@@ -16,13 +16,17 @@ struct Needs {
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;        ///< point or spot lights
+    bool varyingLight = false;        ///< point or spot lights, or shadows
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
+    bool oneSource = false;  ///< one medium, one tint and the same light everywhere: what media
+                             ///< send depends on nothing but their summed depth
+    bool orthographic = false;
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
+    std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
 };
 
 /// One mesh of thin or solid triangles.

@@ -102,6 +102,7 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                                       desc.bindings),
                      .pushConstantBytes = sizeof(shader::LayerPush),
                      .specialization = constants,
+                     .constants = lightingConstants(inputs.needs),
                      .colors = desc.colors,
                      .depthFormat = desc.depthFormat,
                      .depthTest = hasDepth,
@@ -131,7 +132,7 @@ void LayerPass::recordMedia(gpu::Commands& commands, const frame::PassResources&
     if (!mMedia || count == 0) return;
     commands.bindGraphics(mMedia);
     bindFrame(commands, inputs);
-    bindMedia(commands, inputs, resources.buffer(inputs.spheres));
+    bindMedia(commands, inputs, resources.buffer(inputs.spheres), *inputs.boxes);
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
     if (use.bind) use.bind(commands, resources);
     commands.pushConstants(shader::LayerPush{

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/needs.hpp>
+#include <shadows/store_info.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace brume::render {
 namespace {
@@ -44,6 +47,27 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
+/// Whether one medium and one tint are all there is, under light that is the same everywhere.
+bool hasOneSource(const PreparedScene& prepared) {
+    const scene::Scene& scene = prepared.scene;
+    for (const scene::Light& light : scene.lights)
+        if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
+            return false;
+    if (!scene.effects.empty()) return false;
+    std::set<std::uint32_t> media;
+    std::set<std::array<float, 3>> tints;
+    for (const scene::MediumSphere& sphere : prepared.spheres) {
+        media.insert(sphere.medium);
+        tints.insert({sphere.tint.x, sphere.tint.y, sphere.tint.z});
+    }
+    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
+        if (prepared.volumes[i].isEmpty()) continue;
+        media.insert(scene.volumes[i].medium);
+        tints.insert({1, 1, 1});
+    }
+    return media.size() == 1 && tints.size() == 1;
+}
+
 }  // namespace
 
 oit::Needs findNeeds(const PreparedScene& prepared) {
@@ -62,8 +86,12 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
-        if (light.type != scene::LightType::Directional) needs.varyingLight = true;
+        needs.shadowStores |= shadows::storeBits(light.shadow);
+        if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
+            needs.varyingLight = true;
     }
+    needs.oneSource = hasOneSource(prepared);
+    needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
 
@@ -76,13 +104,16 @@ std::string describe(const oit::Needs& needs) {
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
            line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
-           line("varyingLight", needs.varyingLight, "point or spot lights on media") +
+           line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
            line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
+           line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
+           line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
-                       needs.lights);
+                       needs.lights) +
+           line("shadows", needs.shadowStores != 0, "maps of what the lights see");
 }
 
 }  // namespace brume::render

@@ -23,15 +23,23 @@ float boxDensityLength(RealRay ray, BoxData box, VolumeData volume, vec2 t) {
     for (int i = 0; i < 64 && position < t.y; ++i) {
         float target = min(nextPlane(box, local, position), t.y);
         float distance = target - position;
-        sum += distance * dot(kWeights, boxDensities(box, local, position + distance * kNodes));
+        BoxDensity density = makeBoxDensity(box, local, position + 0.5 * distance);
+        for (int k = 0; k < 3; ++k)
+            sum += distance * kWeights[k] * boxDensity(density, position + distance * kNodes[k]);
         position = target;
     }
     return sum;
 }
 
-SphereData varyingSphere() {
-    return SphereData(centerRadius.xyz, vec3(0), centerRadius.w, tintDensity.xyz, tintDensity.w, kind.x, 0u,
-                      kind.y);
+float sphereDensityLength(RealRay ray, vec2 t) {
+    float length = t.y - t.x;
+    if (!kVarying) return length * tintDensity.w;
+    SphereData sphere = SphereData(centerRadius.xyz, vec3(0), centerRadius.w, tintDensity.xyz,
+                                   tintDensity.w, kind.x, 0u, kind.y);
+    SphereDensity density = makeSphereDensity(ray, sphere, t.x);
+    float sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += kWeights[k] * sphereDensity(density, length * kNodes[k]);
+    return length * sum;
 }
 
 // False where the ray misses or meets something opaque before.
@@ -50,11 +58,7 @@ bool findInterval(Ray ray, float limit, out vec2 t, out float densityLength) {
         t.x >= limit)
         return false;
     t.y = min(t.y, limit);
-    float length = t.y - t.x;
-    densityLength =
-        length * (kVarying ? dot(kWeights, sphereDensities(realRay, varyingSphere(), Real(t.x),
-                                                           length * kNodes))
-                           : tintDensity.w);
+    densityLength = sphereDensityLength(realRay, t);
     return true;
 }
 
