@@ -39,7 +39,7 @@ enum class Precision {
 
 struct Settings {
     Precision precision = Precision::Single;
-    float depthPower = 3;
+    float depthPower = 2;
     float weightDistance = 5;    ///< m, where the weight is 1; matters for half precision only
     float selfModulation = 0;  ///< 0.5: eq. 13; off, because it tints single layers as well
     std::uint32_t lowResolution = 1;
@@ -263,7 +263,7 @@ const MethodInfo& info() {
         .settings = {
             {"precision", "half, single, exact", "single",
              "of the sums; exact keeps thousands of faint layers to 1e-6"},
-            {"depthPower", "0..16", "3", "weight = (weightDistance / distance)^depthPower"},
+            {"depthPower", "0..16", "2", "weight = (weightDistance / distance)^depthPower"},
             {"weightDistance", "1e-6..1e6 m", "5", "where the weight is 1; matters for half"},
             {"selfModulation", "0..1", "0", "how far layers take the hue of the transmittance; 0.5 in the paper"},
             {"lowResolution", "1, 2, 4", "1", "pixels per edge of a texel for media"},
