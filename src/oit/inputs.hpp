@@ -21,8 +21,9 @@ struct Needs {
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
-    bool oneSource = false;  ///< one medium, one tint and the same light everywhere: what media
-                             ///< send depends on nothing but their summed depth
+    bool oneMedium = false;  ///< one medium and one tint in the whole scene
+    bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
+                             ///< nothing but their summed depth
     bool orthographic = false;
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
