@@ -19,8 +19,12 @@
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/tile/classify.comp.float64.hpp>
 #include <spv/oit/tile/classify.comp.hpp>
+#include <spv/oit/tile/classify_boxes.comp.float64.hpp>
+#include <spv/oit/tile/classify_boxes.comp.hpp>
 #include <spv/oit/tile/composite.comp.float64.hpp>
 #include <spv/oit/tile/composite.comp.hpp>
+#include <spv/oit/tile/lit_volumes.comp.float64.hpp>
+#include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
@@ -79,6 +83,7 @@ class Tile final : public OitMethod {
     std::uint32_t mTileCount;
     MediaBins mBins;
     Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
     std::uint64_t mListTileCount = 0;
@@ -107,10 +112,20 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
                                                  spv::oit_tile_composite_comp_float64), images),
                 shader::kTileSize};
-    if (mNeeds.boxes && mNeeds.oneSource)
+    const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
+    if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
                                                    spv::oit_tile_volumes_comp_float64), images),
-                    shader::kTileSize * shader::kTileSize};
+                    pixels};
+    } else if (mNeeds.boxes && mNeeds.oneMedium) {
+        mVolumes = {makePipeline("lit_volumes",
+                                 choose(spv::oit_tile_lit_volumes_comp,
+                                        spv::oit_tile_lit_volumes_comp_float64), images),
+                    pixels};
+        mClassifyBoxes = makePipeline("classify_boxes",
+                                      choose(spv::oit_tile_classify_boxes_comp,
+                                             spv::oit_tile_classify_boxes_comp_float64), {});
+    }
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",
@@ -134,7 +149,8 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .pushConstantBytes = sizeof(shader::TilePush),
              .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
                                 mNeeds.colouredExtinction,
-                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u)}}};
+                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
+                                mNeeds.oneMedium}}};
 }
 
 gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,
@@ -213,13 +229,19 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.readsWrites(classes, Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-        commands.bindCompute(mAll.pipeline);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
-                      *inputs.texelSampler);
-        commands.pushConstants(makePush(mAll.tiles, mTileCount));
-        commands.dispatchThreads(std::uint64_t{mTileCount} * shader::kTileSize, 64);
+        const auto run = [&](const gpu::ComputePipeline& pipeline, std::uint32_t threadsPerTile) {
+            commands.bindCompute(pipeline);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.pushConstants(makePush(mAll.tiles, mTileCount));
+            commands.dispatchThreads(std::uint64_t{mTileCount} * threadsPerTile, 64);
+        };
+        run(mAll.pipeline, shader::kTileSize);
+        if (!mClassifyBoxes) return;
+        commands.computeBarrier();
+        run(mClassifyBoxes, shader::kTileSize * shader::kTileSize);
     });
     frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
 }

@@ -37,13 +37,9 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
-/// Whether one medium and one tint are all there is, under light that is the same everywhere.
-bool hasOneSource(const PreparedScene& prepared) {
-    const scene::Scene& scene = prepared.scene;
-    for (const scene::Light& light : scene.lights)
-        if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
-            return false;
-    if (!scene.effects.empty()) return false;
+/// Whether one medium and one tint are all there is.
+bool hasOneMedium(const PreparedScene& prepared) {
+    if (!prepared.scene.effects.empty()) return false;
     std::set<std::uint32_t> media;
     std::set<std::array<float, 3>> tints;
     for (const scene::MediumSphere& sphere : prepared.spheres) {
@@ -52,7 +48,7 @@ bool hasOneSource(const PreparedScene& prepared) {
     }
     for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
         if (prepared.volumes[i].isEmpty()) continue;
-        media.insert(scene.volumes[i].medium);
+        media.insert(prepared.scene.volumes[i].medium);
         tints.insert({1, 1, 1});
     }
     return media.size() == 1 && tints.size() == 1;
@@ -78,7 +74,8 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         ++needs.lights;
         if (light.type != scene::LightType::Directional) needs.varyingLight = true;
     }
-    needs.oneSource = hasOneSource(prepared);
+    needs.oneMedium = hasOneMedium(prepared);
+    needs.oneSource = needs.oneMedium && !needs.varyingLight;
     needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
@@ -94,7 +91,8 @@ std::string describe(const oit::Needs& needs) {
            line("varyingLight", needs.varyingLight, "point or spot lights on media") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
-           line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
+           line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
+           line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
            line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
                        needs.lights);

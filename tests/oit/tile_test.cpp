@@ -140,6 +140,27 @@ TEST_F(Tile, VolumesOfOneSource_AreExactWithoutLists) {
     EXPECT_GT(countListTiles(s), 0u);
 }
 
+TEST_F(Tile, VolumesInLampLight_AreExactWithoutLists) {
+    TestScene s(32, 32);
+    s.addMedium(dvec3(1, 2, 4), dvec3(0.9, 0.5, 0.2), dvec3(0.2));
+    s.scene.media[0].phase = scene::PhaseType::HenyeyGreenstein;
+    s.scene.media[0].g = 0.5;
+    fillBricks(s.addGrid(0, glm::scale(translation(dvec3(-0.8)), dvec3(0.1))), 2, noiseAt);
+    s.addDaylight();
+    s.addLight(scene::LightType::Point, dvec3(3, 2, 1)).position = dvec3(0.1, 0.2, -0.15);
+    s.scene.lights.back().radius = 0.05;
+    expectExact(s, "outside");
+    EXPECT_EQ(countListTiles(s), 0u);
+    EXPECT_GT(renderTile(s).counters.at("tilesVolumes"), 0u);
+    s.scene.camera.position = dvec3(0.05, -0.1, 0.12);
+    s.scene.camera.target = dvec3(1, 0.3, 1);
+    expectExact(s, "inside");
+    EXPECT_EQ(countListTiles(s), 0u);
+    s.addBox(0, dvec3(-1), dvec3(1), 0.3f);
+    expectExact(s, "with a box across the bricks");
+    EXPECT_GT(countListTiles(s), 0u);
+}
+
 TEST_F(Tile, PointLight_IsExact) {
     TestScene s = makeCloud(20, 1, Profile::Constant);
     s.addLight(scene::LightType::Point, dvec3(3)).position = dvec3(0.2, 0.3, -1.5);

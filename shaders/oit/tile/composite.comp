@@ -4,7 +4,6 @@
 // common source, so that their order does not matter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/exponential.glsl"
 #include "../../common/lighting.glsl"
 #include "column.glsl"
 

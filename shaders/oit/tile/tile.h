@@ -19,7 +19,7 @@ struct TilePush {
 // What the pixels of a tile need, in rising order of cost.
 BRUME_CONST uint kClassEmpty = 0u;    // no medium
 BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one common source
-BRUME_CONST uint kClassVolumes = 2u;  // bricks, boxes and spheres of one common source
+BRUME_CONST uint kClassVolumes = 2u;  // bricks and boxes of one medium; spheres of one source too
 BRUME_CONST uint kClassLists = 3u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {

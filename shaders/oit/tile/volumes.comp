@@ -5,7 +5,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../../common/density.glsl"
-#include "../../common/exponential.glsl"
 #include "../../common/lighting.glsl"
 #include "media.glsl"
 
@@ -17,8 +16,6 @@ layout(binding = kBindingTileResult, rgba32f) writeonly uniform image2D result;
 // Of Gauss's rule with two points, exact for cubics.
 const vec2 kNodes = vec2(0.2113248654051871, 0.7886751345948129);
 
-// Loops of the whole invocation: some devices silently end them after 65 535 iterations.
-const uint kMostSteps = 60000u;
 uint steps = 0u;
 
 float integrateBox(RealRay ray, float limit, BoxData box) {
@@ -40,13 +37,9 @@ float integrateBox(RealRay ray, float limit, BoxData box) {
 }
 
 void main() {
-    uint slot = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (slot >= push.tileCount) return;
-    uint tile = tileAt(slot);
-    uvec2 pixel =
-        tileCorner(tile) + uvec2(gl_LocalInvocationIndex % kTileSize,
-                                 gl_LocalInvocationIndex / kTileSize);
-    if (any(greaterThanEqual(pixel, frame.size))) return;
+    uint tile;
+    uvec2 pixel;
+    if (!beginPixel(tile, pixel)) return;
     RealRay ray = makeTileRay(pixel);
     float limit = texelFetch(opaqueT, ivec2(pixel), 0).x;
     uint box = UintArray(push.boxOffsets).at[tile];
@@ -70,7 +63,7 @@ void main() {
         ++sphere;
     }
     if (steps >= kMostSteps)
-        atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
+        countExhausted();
     else if (box < lastBox || sphere < lastSphere)
         countStop(push.epsilon);
 
