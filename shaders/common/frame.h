@@ -43,6 +43,7 @@ struct LightData {
     vec3 direction;  // unit, in which the light travels
     float cosInner;
     float cosOuter;
+    uint64_t shadow;  // address of its ShadowMap (shadows/common/maps.h); 0: shines through everything
 };
 
 BRUME_CONST uint kPhaseIsotropic = 0u;
@@ -84,7 +85,7 @@ BRUME_STRUCTS_END
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::FrameData) == 176);
 static_assert(offsetof(brume::shader::FrameData, size) == 124);
-static_assert(sizeof(brume::shader::LightData) == 52);
+static_assert(sizeof(brume::shader::LightData) == 64);
 static_assert(sizeof(brume::shader::MediumData) == 44);
 static_assert(sizeof(brume::shader::VolumeData) == 76);
 static_assert(sizeof(brume::shader::BoxData) == 52);

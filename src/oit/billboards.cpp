@@ -29,6 +29,7 @@ Billboards::Billboards(gpu::Device& device, const std::string& name, const Input
                       .pushConstantBytes = sizeof(shader::BillboardPush),
                       .specialization = {inputs.needs.boxes, inputs.needs.varyingDensity,
                                          inputs.needs.colouredExtinction},
+                      .constants = lightingConstants(inputs.needs),
                       .colors = kOver}) {
     if (inputs.needs.surfaces)
         mSurfaces = {device,
@@ -36,6 +37,7 @@ Billboards::Billboards(gpu::Device& device, const std::string& name, const Input
                       .vertexSpirv = spv::common_mesh_vert,
                       .fragmentSpirv = spv::oit_billboards_surface_frag,
                       .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
+                      .constants = lightingConstants(inputs.needs),
                       .colors = kOver}};
 }
 

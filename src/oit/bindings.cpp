@@ -3,6 +3,7 @@
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
+#include <shaders/shadows/common/maps.h>
 
 namespace brume::oit {
 
@@ -32,6 +33,10 @@ std::vector<gpu::Binding> meshBindings() {
 std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
+}
+
+std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
+    return {{shader::kConstantShadowStores, needs.shadowStores}};
 }
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs) {

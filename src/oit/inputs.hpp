@@ -16,7 +16,7 @@ struct Needs {
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;        ///< point or spot lights
+    bool varyingLight = false;        ///< point or spot lights, or shadows
     bool colouredExtinction = false;  ///< extinction or transmission differs between channels
     bool oneMedium = false;  ///< one medium and one tint in the whole scene
     bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
@@ -24,6 +24,7 @@ struct Needs {
     bool orthographic = false;
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
+    std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
 };
 
 /// One mesh of thin or solid triangles.

@@ -35,13 +35,15 @@ const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledIm
 gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& name,
                                       std::span<const std::uint32_t> spirv,
                                       const std::vector<gpu::Binding>& own,
-                                      std::vector<std::uint32_t> specialization) {
+                                      std::vector<std::uint32_t> specialization,
+                                      std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = name,
              .spirv = spirv,
              .bindings = join(frameBindings(), own),
              .pushConstantBytes = sizeof(shader::ListPush),
-             .specialization = std::move(specialization)}};
+             .specialization = std::move(specialization),
+             .constants = std::move(constants)}};
 }
 
 /// The finer of two builds of a shader, where the device has the numbers for it.
@@ -52,13 +54,15 @@ std::span<const std::uint32_t> choose(const gpu::Device& device,
 }
 
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
-                                          std::span<const std::uint32_t> spirv) {
+                                          std::span<const std::uint32_t> spirv,
+                                          std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = name,
              .vertexSpirv = choose(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
              .fragmentSpirv = spirv,
              .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
-             .pushConstantBytes = sizeof(shader::ListPush)}};
+             .pushConstantBytes = sizeof(shader::ListPush),
+             .constants = std::move(constants)}};
 }
 
 }  // namespace
@@ -88,7 +92,8 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
         mSurfaceStore =
             makeSurfacePipeline(device, name + ".surface_store",
                                 choose(device, spv::oit_linked_list_surface_store_frag,
-                                       spv::oit_linked_list_surface_store_frag_float64));
+                                       spv::oit_linked_list_surface_store_frag_float64),
+                                lightingConstants(mNeeds));
     }
     mCounters = makeBuffer("counters", sizeof(shader::ListCounters));
     mCountersRead =
@@ -128,7 +133,8 @@ gpu::ComputePipeline PixelLists::makeResolve() const {
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                                {shader::kBindingResult, gpu::BindingType::StorageImage}}),
         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
-         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia});
+         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia},
+        lightingConstants(mNeeds));
 }
 
 void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {

@@ -132,7 +132,8 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                   .vertexSpirv = spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
                   .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
-                  .pushConstantBytes = sizeof(shader::TilePush)}};
+                  .pushConstantBytes = sizeof(shader::TilePush),
+                  .constants = lightingConstants(mNeeds)}};
     mClasses = makeBuffer("classes", 4ull * mTileCount);
     mClassesRead = makeBuffer("classes_read", 4ull * mTileCount, gpu::MemoryKind::Readback);
     mCounters = makeBuffer("counters", sizeof(shader::TileCounters));
@@ -150,7 +151,8 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
                                 mNeeds.colouredExtinction,
                                 mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
-                                mNeeds.oneMedium}}};
+                                mNeeds.oneMedium},
+             .constants = lightingConstants(mNeeds)}};
 }
 
 gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,

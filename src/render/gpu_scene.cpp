@@ -164,8 +164,10 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
         if (light.type == scene::LightType::Ambient)
             ambient += light.color;
         else
-            lights.push_back(makeLight(light, mCamera.position));
+            mSceneLights.push_back(light);
     }
+    for (const scene::Light& light : mSceneLights)
+        lights.push_back(makeLight(light, mCamera.position));
     std::vector<shader::MediumData> media;
     for (const scene::Medium& medium : scene.media) media.push_back(makeMedium(medium));
 
@@ -211,6 +213,18 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
     mFrame = makeArray(submitter, "render.frame", std::vector{data});
     mLights = makeArray(submitter, "render.lights", std::move(lights));
     mMedia = makeArray(submitter, "render.media", std::move(media));
+}
+
+void GpuScene::setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceAddress>& maps) {
+    std::vector<shader::LightData> lights;
+    for (std::size_t i = 0; i < mSceneLights.size(); ++i) {
+        lights.push_back(makeLight(mSceneLights[i], mCamera.position));
+        lights.back().shadow = maps[i];
+    }
+    if (lights.empty()) return;
+    submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
+        gpu::upload(commands, mLights, lights);
+    });
 }
 
 void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& prepared) {

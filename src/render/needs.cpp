@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/needs.hpp>
+#include <shadows/store_info.hpp>
 
 #include <fmt/format.h>
 
@@ -72,7 +73,9 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
-        if (light.type != scene::LightType::Directional) needs.varyingLight = true;
+        needs.shadowStores |= shadows::storeBits(light.shadow);
+        if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
+            needs.varyingLight = true;
     }
     needs.oneMedium = hasOneMedium(prepared);
     needs.oneSource = needs.oneMedium && !needs.varyingLight;
@@ -88,14 +91,15 @@ std::string describe(const oit::Needs& needs) {
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
-           line("varyingLight", needs.varyingLight, "point or spot lights on media") +
+           line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
            line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
            line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
-                       needs.lights);
+                       needs.lights) +
+           line("shadows", needs.shadowStores != 0, "maps of what the lights see");
 }
 
 }  // namespace brume::render

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct PreparedScene {
 
 struct Options {
     std::string method = "linked_list";
-    std::string shadow;  ///< overrides the lights' own; empty: as in the scene
-    scene::Settings settings;
+    scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
+                               ///< "shuffle"
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
 };
 
@@ -68,6 +69,10 @@ class Renderer {
 
     /// Particles as simulated on the device, read back: for the reference.
     std::vector<scene::MediumSphere> readParticles() const;
+
+    /// What the shadow maps say at world positions: the share of a light (counted without the
+    /// ambient ones) that arrives there, per channel.
+    std::vector<vec3> probeShadows(std::uint32_t light, std::span<const dvec3> positions) const;
 
     /// Needs, passes, targets and bytes per pixel, as text for --explain.
     std::string explain() const;

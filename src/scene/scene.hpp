@@ -67,6 +67,7 @@ struct Light {
     double outerAngle = radians(30);
     double radius = 0.01;
     std::string shadow = "none";  ///< name of a shadow store, or "none"
+    Settings shadowSettings;      ///< of the store and its map
 };
 
 enum class MaterialType { Opaque, Thin, Solid };

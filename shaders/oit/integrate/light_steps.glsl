@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a step may go in the light of lamps.
+// How far a step may go in light that varies.
 #ifndef BRUME_OIT_INTEGRATE_LIGHT_STEPS_GLSL
 #define BRUME_OIT_INTEGRATE_LIGHT_STEPS_GLSL
-#include "../../common/bindings.glsl"
+#include "../../common/lighting.glsl"
 
 const float kNoCrossing = 1e30;
 
@@ -44,8 +44,10 @@ float limitStepByLight(LightData light, vec3 origin, vec3 rayDirection, float pl
 float limitStepByLights(vec3 origin, vec3 rayDirection, float place) {
     float limit = kNoCrossing;
     for (uint i = 0u; i < frame.lightCount; ++i)
-        if (lights[i].type != kLightDirectional)
-            limit = min(limit, limitStepByLight(lights[i], origin, rayDirection, place));
+        limit = min(limit, min(lights[i].type != kLightDirectional
+                                   ? limitStepByLight(lights[i], origin, rayDirection, place)
+                                   : kNoCrossing,
+                               shadowStep(i)));
     return limit;
 }
 

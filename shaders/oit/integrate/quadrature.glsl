@@ -3,6 +3,7 @@
 // those of three leave the light of a mixture off by 1e-4.
 #ifndef BRUME_OIT_INTEGRATE_QUADRATURE_GLSL
 #define BRUME_OIT_INTEGRATE_QUADRATURE_GLSL
+#extension GL_EXT_control_flow_attributes : require
 #include "path.glsl"
 
 // Gauss-Legendre nodes and weights on [0, 1], and the integrals of the node polynomials up to each
@@ -39,7 +40,7 @@ struct Nodes {
 // is allowed; above 1 nothing is done.
 float crossVarying(inout Path path, Nodes nodes, float distance) {
     vec3 extinction = vec3(0), source = vec3(0);
-    for (uint k = 0u; k < kNodeCount; ++k) {
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         extinction += kWeights[k] * nodes.extinction[k];
         source += kWeights[k] * nodes.source[k];
     }
@@ -47,9 +48,9 @@ float crossVarying(inout Path path, Nodes nodes, float distance) {
     vec3 before = path.surfaces * path.decay;
     vec3 mean = source / max(extinction, vec3(1e-30));
     vec3 variation = vec3(0), size = vec3(0), deviation = vec3(0);
-    for (uint k = 0u; k < kNodeCount; ++k) {
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         vec3 depthAtNode = vec3(0);
-        for (uint j = 0u; j < kNodeCount; ++j)
+        [[unroll]] for (uint j = 0u; j < kNodeCount; ++j)
             depthAtNode += kUpTo[kNodeCount * k + j] * nodes.extinction[j];
         depthAtNode *= distance;
         vec3 difference = nodes.source[k] - mean * nodes.extinction[k];

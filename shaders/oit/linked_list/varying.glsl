@@ -149,7 +149,8 @@ Nodes evaluateNodes(float from, float distance) {
     nodes.share = 0.0;
     Scattered scattered = scatterGroup(0u, from, distance);
     uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
-    iterations += groups * (1u + state.open + frame.lightCount);
+    iterations += groups * (1u + state.open + frame.lightCount) + shadowIterations;
+    shadowIterations = 0u;
     for (uint k = 0u; k < kNodeCount; ++k) {
         nodes.extinction[k] = nodes.source[k] = vec3(0);
         if (kSurfaces) {

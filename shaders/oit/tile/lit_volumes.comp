@@ -26,15 +26,25 @@ uint steps = 0u;
 Nodes evaluateNodes(BoxData box, LocalRay local, float begin, float from, float distance) {
     Nodes nodes;
     nodes.share = 0.0;
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) nodes.source[k] = frame.ambient;
+    // Nodes inside: a loop around a loop is not unrolled, and arrays would leave the registers.
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        LightData light = lights[i];
+        [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+            vec3 travel;
+            vec3 position =
+                vec3(ray.origin) + rayDirection * (begin + from + distance * kNodes[k]);
+            vec3 irradiance = lightIrradiance(light, i, position, travel);
+            nodes.source[k] +=
+                irradiance * phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
+        }
+    }
     BoxDensity density = makeBoxDensity(box, local, from + 0.5 * distance);
-    for (uint k = 0u; k < kNodeCount; ++k) {
-        float at = from + distance * kNodes[k];
-        vec3 position = vec3(ray.origin) + rayDirection * (begin + at);
-        vec3 light = scatteredRadiance(medium, position, rayDirection);
-        float value = boxDensity(density, at);
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+        float value = boxDensity(density, from + distance * kNodes[k]);
         nodes.extinction[k] = value * medium.extinction;
-        nodes.source[k] =
-            value * (medium.extinction * medium.albedo * light + medium.emission);
+        nodes.source[k] = value * (medium.extinction * medium.albedo * nodes.source[k] +
+                                   medium.emission);
     }
     return nodes;
 }
