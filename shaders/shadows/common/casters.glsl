@@ -48,8 +48,11 @@ LocalRay shadowLocalRay(Ray ray, BoxData box, VolumeData volume) {
 
 // The same over one cell of a brick or one ramp of a soft box, in which the density is a cubic.
 float cellDensityLength(BoxData box, LocalRay local, float from, float to) {
-    return (to - from) *
-           dot(kShadowWeights, boxDensities(box, local, from + (to - from) * kShadowNodes));
+    BoxDensity density = makeBoxDensity(box, local, 0.5 * (from + to));
+    float sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+        sum += kShadowWeights[k] * boxDensity(density, from + (to - from) * kShadowNodes[k]);
+    return (to - from) * sum;
 }
 
 float brickDensityLength(BoxData box, LocalRay local, vec2 t) {
