@@ -9,8 +9,9 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 8> kScenes = {{
+constexpr std::array<SceneInfo, 9> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
+    {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
     {"spheres_10k_15", "10 000 spheres of 15 pixels radius, seven per pixel"},
     {"spheres_10k_64", "10 000 spheres of 64 pixels radius, over a hundred per pixel"},
@@ -76,6 +77,7 @@ std::vector<NamedScene> makeLayerScenes(std::string_view name) {
 std::span<const SceneInfo> listScenes() { return kScenes; }
 
 std::vector<NamedScene> makeScenes(std::string_view name) {
+    if (name == "spheres_1k_16") return {{std::string(name), makeSpheres(1'000, 16)}};
     if (name == "spheres_1k_48") return {{std::string(name), makeSpheres(1'000, 48)}};
     if (name == "spheres_10k_15") return {{std::string(name), makeSpheres(10'000, 15)}};
     if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};

@@ -47,7 +47,7 @@ void Billboards::recordMedia(gpu::Commands& commands, const frame::PassResources
     if (count == 0) return;
     commands.bindGraphics(mMedia);
     bindFrame(commands, inputs);
-    bindMedia(commands, inputs, resources.buffer(inputs.spheres));
+    bindMedia(commands, inputs, resources.buffer(inputs.spheres), *inputs.boxes);
     commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT), *inputs.texelSampler);
     commands.pushConstants(
         shader::BillboardPush{.order = order ? resources.address(order) : 0, .count = count});

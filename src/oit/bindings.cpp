@@ -45,9 +45,10 @@ void bindFrame(gpu::Commands& commands, const Inputs& inputs) {
     commands.bind(shader::kBindingMedia, *inputs.media);
 }
 
-void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres) {
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres,
+               const gpu::Buffer& boxes) {
     commands.bind(shader::kBindingSpheres, spheres);
-    commands.bind(shader::kBindingBoxes, *inputs.boxes);
+    commands.bind(shader::kBindingBoxes, boxes);
     commands.bind(shader::kBindingVolumes, *inputs.volumes);
 }
 

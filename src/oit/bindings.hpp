@@ -22,8 +22,9 @@ std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gp
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs);
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs);
-/// `spheres`: sorted or as they came.
-void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres);
+/// `spheres` and `boxes`: sorted or as they came.
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres,
+               const gpu::Buffer& boxes);
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs);
 
 /// The mesh, material and textures of one draw.

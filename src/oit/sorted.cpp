@@ -60,7 +60,7 @@ void Sorted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
             if (mCount == 0) return;
             commands.bindCompute(mKeysPipeline);
             bindFrame(commands, inputs);
-            bindMedia(commands, inputs, resources.buffer(inputs.spheres));
+            bindMedia(commands, inputs, resources.buffer(inputs.spheres), *inputs.boxes);
             commands.pushConstants(shader::BillboardPush{
                 .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress(), .count = mCount});
             commands.dispatch((mCount + 63) / 64);

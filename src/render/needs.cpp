@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace brume::render {
 namespace {
@@ -36,6 +38,27 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
+/// Whether one medium and one tint are all there is, under light that is the same everywhere.
+bool hasOneSource(const PreparedScene& prepared) {
+    const scene::Scene& scene = prepared.scene;
+    for (const scene::Light& light : scene.lights)
+        if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
+            return false;
+    if (!scene.effects.empty()) return false;
+    std::set<std::uint32_t> media;
+    std::set<std::array<float, 3>> tints;
+    for (const scene::MediumSphere& sphere : prepared.spheres) {
+        media.insert(sphere.medium);
+        tints.insert({sphere.tint.x, sphere.tint.y, sphere.tint.z});
+    }
+    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
+        if (prepared.volumes[i].isEmpty()) continue;
+        media.insert(scene.volumes[i].medium);
+        tints.insert({1, 1, 1});
+    }
+    return media.size() == 1 && tints.size() == 1;
+}
+
 }  // namespace
 
 oit::Needs findNeeds(const PreparedScene& prepared) {
@@ -58,6 +81,8 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
             needs.varyingLight = true;
     }
+    needs.oneSource = hasOneSource(prepared);
+    needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
 
@@ -72,6 +97,8 @@ std::string describe(const oit::Needs& needs) {
            line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
+           line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
+           line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
                        needs.lights) +
            line("shadows", needs.shadowStores != 0, "maps of what the lights see");

@@ -200,12 +200,12 @@ TEST_F(Determinism, TwentyRenders_GiveTheSameBits) {
 }
 
 TEST_F(Determinism, Bands_GiveTheSameBits) {
-    // Lists of more than 3 MiB: some 250 intervals on 2 304 pixels.
-    TestScene s(48, 48);
+    // Lists of more than 3 MiB: some 45 intervals on each of 9 216 pixels.
+    TestScene s(96, 96);
     Random random(12);
-    for (int m = 0; m < 3; ++m) s.addMedium(0.01 * random.vector(), dvec3(0.8));
-    for (int i = 0; i < 250; ++i)
-        s.addSphere(static_cast<std::uint32_t>(i % 3), 0.5 * random.vector(-1, 1), 3,
+    for (int m = 0; m < 3; ++m) s.addMedium(0.1 * random.vector(), dvec3(0.8));
+    for (int i = 0; i < 300; ++i)
+        s.addSphere(static_cast<std::uint32_t>(i % 3), 2.0 * random.vector(-1, 1), 0.8,
                     Profile::Constant);
     s.addPane(s.addMaterial(makeThin(0.5, dvec3(0.3, 0.6, 0.9))), 0, 2);
     s.addDaylight();
@@ -242,9 +242,11 @@ TEST_F(Determinism, BudgetBelowOneTile_IsAnInputError) {
 TEST_F(Determinism, MediaOnOneTileByTheThousands_AreAllStored) {
     // More than a device's limit of loop iterations per invocation could visit naively.
     TestScene s(8, 8);
+    s.scene.camera.position.z = -8;
     const std::uint32_t medium = s.addMedium(dvec3(2e-5, 1e-5, 3e-5), dvec3(0.5));
     Random random(3);
-    for (int i = 0; i < 12000; ++i) s.addSphere(medium, random.vector(-1, 1), 4);
+    for (int i = 0; i < 12000; ++i)
+        s.addSphere(medium, random.vector(-1, 1) * dvec3(0.01, 0.01, 1), 4);
     s.addDaylight();
     const render::Result result = render(s);
     EXPECT_EQ(result.counters.at("stored"), 12000u * 64);

@@ -138,7 +138,9 @@ std::uint64_t RenderTest::hashOf(const render::PreparedScene& scene,
 }
 
 Difference RenderTest::measure(const render::PreparedScene& scene) {
-    const render::Result actual = render(scene, {.triangleHashes = true});
+    render::Options options = mMethod;
+    options.triangleHashes = true;
+    const render::Result actual = render(scene, options);
     const reference::Result expected =
         reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = false});
     EXPECT_EQ(actual.counters.at("dropped"), 0u);

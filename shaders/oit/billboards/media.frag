@@ -28,10 +28,21 @@ float boxDensityLength(RealRay ray, BoxData box, VolumeData volume, vec2 t) {
     for (int i = 0; i < 64 && position < t.y; ++i) {
         float target = min(nextPlane(box, local, position), t.y);
         float distance = target - position;
-        sum += distance * dot(kWeights, boxDensities(box, local, position + distance * kNodes));
+        BoxDensity density = makeBoxDensity(box, local, position + 0.5 * distance);
+        for (int k = 0; k < 3; ++k)
+            sum += distance * kWeights[k] * boxDensity(density, position + distance * kNodes[k]);
         position = target;
     }
     return sum;
+}
+
+float sphereDensityLength(RealRay ray, SphereData sphere, vec2 t) {
+    float length = t.y - t.x;
+    if (!kVarying) return length * sphere.density;
+    SphereDensity density = makeSphereDensity(ray, sphere, t.x);
+    float sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += kWeights[k] * sphereDensity(density, length * kNodes[k]);
+    return length * sum;
 }
 
 void main() {
@@ -53,10 +64,7 @@ void main() {
             t.x >= limit)
             discard;
         t.y = min(t.y, limit);
-        densityLength =
-            (t.y - t.x) *
-            (kVarying ? dot(kWeights, sphereDensities(ray, sphere, t.x, (t.y - t.x) * kNodes))
-                      : sphere.density);
+        densityLength = sphereDensityLength(ray, sphere, t);
     }
     MediumData medium = media[kind.x];
     vec3 tint = kBoxes && kind.z != 0u ? vec3(1) : tintDensity.xyz;

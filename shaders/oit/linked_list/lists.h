@@ -18,9 +18,12 @@ BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 struct ListPush {
-    uint meshIndex;                       // surface passes: which mesh is drawn
-    uint firstTile;                       // of the band
-    uint tileCount;                       // in the band
+    uint step;        // surface passes: which mesh is drawn; count, store: first medium of the
+                      // slice of a tile's media to visit; resolve: the round, from 0
+    uint firstSlot;   // of the band, among the tiles that have lists
+    uint tileCount;   // in the band
+    uint roundCount;  // resolve
+    uint64_t tileMap;  // uint[screen tiles]: slot of each, or ~0; then uint[]: tile of each slot
     uint64_t entries;                     // uvec2[]
     uint64_t offsets;                     // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
@@ -31,9 +34,6 @@ struct ListPush {
     uint64_t counters;  // ListCounters
     uint64_t progress;  // uint[pixels]: media stored already, and kUnsortedBit
     uint64_t states;    // PixelState[pixels]: where unfinished pixels go on in the next round
-    uint firstMedium;   // count, store: of the slice of a tile's media to visit
-    uint round;         // resolve: from 0
-    uint roundCount;
 };
 
 // Some devices silently end all loops of an invocation after 65 535 iterations (counted for eight
@@ -119,7 +119,7 @@ BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::ListPush) == 128);
+static_assert(sizeof(brume::shader::ListPush) == 120);
 static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
 static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif

@@ -111,7 +111,7 @@ void advance(Real limit) {
 
 void main() {
     uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    uint tile = push.firstTile + bandTile;
+    uint tile = tileAt(min(bandTile, push.tileCount - 1u));
     uvec2 pixel =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
     if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
@@ -126,7 +126,7 @@ void main() {
     rayDirection = vec3(ray.direction);
     Real limit = Real(min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar));
 
-    if (kRounds && push.round > 0u) {
+    if (kRounds && push.step > 0u) {
         state = StateArray(push.states).at[index];
         if (state.stage >= kStageDone) return;
         position = makeReal(state.position, state.positionLo);
@@ -142,6 +142,6 @@ void main() {
         state.positionLo = findLo(position);
         StateArray(push.states).at[index] = state;
     }
-    if (state.stage != kStageDone && push.round + 1u == push.roundCount)
+    if (state.stage != kStageDone && push.step + 1u == push.roundCount)
         atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }

@@ -48,8 +48,11 @@ LocalRay shadowLocalRay(Ray ray, BoxData box, VolumeData volume) {
 
 // The same over one cell of a brick or one ramp of a soft box, in which the density is a cubic.
 float cellDensityLength(BoxData box, LocalRay local, float from, float to) {
-    return (to - from) *
-           dot(kShadowWeights, boxDensities(box, local, from + (to - from) * kShadowNodes));
+    BoxDensity density = makeBoxDensity(box, local, 0.5 * (from + to));
+    vec3 nodes = from + (to - from) * kShadowNodes;
+    return (to - from) * dot(kShadowWeights, vec3(boxDensity(density, nodes.x),
+                                                  boxDensity(density, nodes.y),
+                                                  boxDensity(density, nodes.z)));
 }
 
 float brickDensityLength(BoxData box, LocalRay local, vec2 t) {
