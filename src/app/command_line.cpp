@@ -90,7 +90,7 @@ void addBench(CLI::App& app, Invocation& invocation) {
         ->delimiter(',');
     command->add_option("--methods", a.methods, "Names of `brume list methods`, or all")
         ->delimiter(',');
-    command->add_option("--shadows", a.shadows, "Shadow stores to compare")->delimiter(',');
+    command->add_option("--shadows", a.shadows, "Measure these shadow stores at points, or all")->delimiter(',');
     command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");
     command->add_option("--repeats", a.repeats, "Frames to measure per row")
         ->check(CLI::Range(1, 100000))

@@ -9,7 +9,7 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 7> kScenes = {{
+constexpr std::array<SceneInfo, 9> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -17,6 +17,8 @@ constexpr std::array<SceneInfo, 7> kScenes = {{
     {"spheres_10k_64", "10 000 spheres of 64 pixels radius, over a hundred per pixel"},
     {"spheres_100k_16", "100 000 spheres of 16 pixels radius"},
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
+    {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
+    {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
@@ -81,6 +83,8 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};
     if (name == "spheres_100k_16") return {{std::string(name), makeSpheres(100'000, 16)}};
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
+    if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
+    if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
     return makeLayerScenes(name);
 }
 
@@ -155,6 +159,90 @@ scene::Scene makeSpheres(int count, double radiusPixels) {
         sphere.radius = radiusPixels * pixel * depth / std::pow(1 + x * x + y * y, 0.25);
         sphere.density = 0.4 / (2 * sphere.radius);
         scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+namespace {
+
+scene::Scene makeSunlitScene() {
+    scene::Scene scene;
+    scene.image = {64, 64, 1};
+    scene.camera.position = dvec3(0, 0, 4);
+    scene::Light sun;
+    sun.type = scene::LightType::Directional;
+    sun.color = dvec3(3);
+    sun.direction = glm::normalize(dvec3(0.05, -1, 0.02));
+    sun.shadow = "visibility";
+    scene.lights = {sun};
+    return scene;
+}
+
+/// Squares in the XZ plane of edge 2 `radius`, texture from corner to corner.
+void addSquare(const dvec3& center, double radius, scene::Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const vec2 corner : {vec2(0, 0), vec2(0, 1), vec2(1, 1), vec2(1, 0)}) {
+        const dvec3 offset(2 * corner.x - 1, 0, 2 * corner.y - 1);
+        mesh.positions.emplace_back(center + radius * offset);
+        mesh.normals.emplace_back(0, 1, 0);
+        mesh.uvs.push_back(corner);
+    }
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+}
+
+std::shared_ptr<const scene::Texture> makeSoftDisc(int size) {
+    auto texture = std::make_shared<scene::Texture>();
+    texture->name = "soft disc";
+    texture->width = texture->height = size;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const dvec2 p = (dvec2(x, y) + 0.5) * (2.0 / size) - 1.0;
+            const double q = std::max(1 - glm::dot(p, p), 0.0);
+            texture->texels.emplace_back(1, 1, 1, static_cast<float>(q * q));
+        }
+    return texture;
+}
+
+}  // namespace
+
+scene::Scene makeShadowPanes() {
+    scene::Scene scene = makeSunlitScene();
+    const dvec3 colors[3] = {{0.9, 0.3, 0.2}, {0.3, 0.8, 0.4}, {0.4, 0.5, 0.9}};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        scene::Material material;
+        material.name = fmt::format("pane {}", i);
+        material.type = scene::MaterialType::Thin;
+        material.coverage = 0.7;
+        material.transmission = colors[i];
+        scene.materials.push_back(material);
+        scene::Mesh mesh;
+        mesh.material = i;
+        addSquare(dvec3(0, 0.5 - 0.5 * i, 0), 1, mesh);
+        scene.meshes.push_back(mesh);
+    }
+    return scene;
+}
+
+scene::Scene makeShadowDiscs(int count) {
+    constexpr int kColors = 16, kTexels = 64;
+    scene::Scene scene = makeSunlitScene();
+    const auto texture = makeSoftDisc(kTexels);
+    Random random(static_cast<std::uint64_t>(count));
+    for (std::uint32_t i = 0; i < kColors; ++i) {
+        scene::Material material;
+        material.name = fmt::format("disc {}", i);
+        material.type = scene::MaterialType::Thin;
+        material.coverage = 0.6;
+        const double r = random.uniform(), g = random.uniform(), b = random.uniform();
+        material.transmission = dvec3(r, g, b);
+        material.colorTexture = texture;
+        scene.materials.push_back(material);
+        scene.meshes.emplace_back().material = i;
+    }
+    for (int i = 0; i < count; ++i) {
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1),
+                     z = random.uniform(-1, 1);
+        addSquare(dvec3(x, y, z), 0.12, scene.meshes[static_cast<std::size_t>(i % kColors)]);
     }
     return scene;
 }

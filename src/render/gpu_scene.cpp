@@ -222,9 +222,8 @@ void GpuScene::setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceA
         lights.back().shadow = maps[i];
     }
     if (lights.empty()) return;
-    submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
-        gpu::upload(commands, mLights, lights);
-    });
+    submitter.submitAndWait(
+        "upload lights", [&](gpu::Commands& commands) { gpu::upload(commands, mLights, lights); });
 }
 
 void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& prepared) {
