@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bench/scene_parts.hpp>
 #include <bench/scenes.hpp>
-#include <random>
 
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 9> kScenes = {{
+constexpr std::array<SceneInfo, 16> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -19,20 +19,16 @@ constexpr std::array<SceneInfo, 9> kScenes = {{
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
     {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
     {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
+    {"glass_bars", "two layers of coloured glass bars, crossed (McGuire, Mara 2016, figure 2)"},
+    {"frosted_panes", "panes of falling collimation before a row of spheres (figure 3)"},
+    {"foggy_street", "a street at night in fog with lamps (figure 1)"},
+    {"smoke_and_glass", "smoke through and behind panes and solid glass (figure 12)"},
+    {"plume_100k", "a smoke plume of 100 000 particles"},
+    {"engine", "many close shells of partial coverage (figure 9)"},
+    {"mixed", "smoke, foliage cards, ribbons, window panes and sheer cloth"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
-
-/// Numbers in [0, 1) that are the same with every standard library.
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : mEngine(seed) {}
-    double uniform() { return static_cast<double>(mEngine() >> 11) * 0x1p-53; }
-    double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-
-  private:
-    std::mt19937_64 mEngine;
-};
 
 scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     scene::Mesh mesh;
@@ -45,16 +41,6 @@ scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     mesh.indices = {0, 1, 2, 0, 2, 3};
     mesh.material = material;
     return mesh;
-}
-
-void addDaylight(scene::Scene& scene) {
-    scene::Light ambient;
-    ambient.color = dvec3(0.4, 0.45, 0.5);
-    scene::Light sun;
-    sun.type = scene::LightType::Directional;
-    sun.color = dvec3(2, 1.9, 1.7);
-    sun.direction = glm::normalize(dvec3(0.6, -0.7, -0.39));
-    scene.lights = {ambient, sun};
 }
 
 NamedScene makeNamedLayers(int layerCount, ivec2 size) {
@@ -85,6 +71,7 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
+    if (auto scene = makeTransparencyScene(name)) return {{std::string(name), *std::move(scene)}};
     return makeLayerScenes(name);
 }
 
