@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ struct Result {
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
     std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
+    std::optional<double> errorBound;  ///< the method's, see OitMethod::errorBound()
 };
 
 /// One scene on one device. Not thread-safe. Owns all its GPU objects; the device must outlive it.
