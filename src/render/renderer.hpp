@@ -33,7 +33,7 @@ struct PreparedScene {
 };
 
 struct Options {
-    std::string method = "linked_list";
+    std::string method = "tile";
     scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
                                ///< "shuffle"
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
