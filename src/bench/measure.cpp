@@ -146,6 +146,7 @@ void FrameSamples::summariseInto(Row& row) const {
         row.passes[i].timeMs = percentile(mPassTimesMs[i], 0.5);
     row.bytes = mLast.bytes;
     row.counters = mLast.counters;
+    row.errorBound = mLast.errorBound;
     row.counters["distinctImages"] = mHashes.size();
     row.imageHash = computeHash(mLast.image);
 }

@@ -9,13 +9,17 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 16> kScenes = {{
+constexpr std::array<SceneInfo, 20> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
     {"spheres_10k_15", "10 000 spheres of 15 pixels radius, seven per pixel"},
     {"spheres_10k_64", "10 000 spheres of 64 pixels radius, over a hundred per pixel"},
     {"spheres_100k_16", "100 000 spheres of 16 pixels radius"},
+    {"spheres_10k_4", "10 000 spheres of 4 pixels radius"},
+    {"spheres_100k_4", "100 000 spheres of 4 pixels radius"},
+    {"spheres_1m_4", "1 000 000 spheres of 4 pixels radius"},
+    {"mixed_10k_15", "10 000 spheres of 15 pixels radius, of two media that mix where they overlap"},
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
     {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
     {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
@@ -68,6 +72,10 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "spheres_10k_15") return {{std::string(name), makeSpheres(10'000, 15)}};
     if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};
     if (name == "spheres_100k_16") return {{std::string(name), makeSpheres(100'000, 16)}};
+    if (name == "spheres_10k_4") return {{std::string(name), makeSpheres(10'000, 4)}};
+    if (name == "spheres_100k_4") return {{std::string(name), makeSpheres(100'000, 4)}};
+    if (name == "spheres_1m_4") return {{std::string(name), makeSpheres(1'000'000, 4)}};
+    if (name == "mixed_10k_15") return {{std::string(name), makeSpheres(10'000, 15, 2)}};
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
@@ -130,8 +138,13 @@ scene::Scene makeNestedSpheres(int count) {
     return scene;
 }
 
-scene::Scene makeSpheres(int count, double radiusPixels) {
+scene::Scene makeSpheres(int count, double radiusPixels, int mediumCount) {
     scene::Scene scene = makeSmokyScene();
+    for (int m = 1; m < mediumCount; ++m) {
+        scene.media.push_back(scene.media[0]);
+        scene.media.back().name = fmt::format("smoke {}", m);
+        scene.media.back().albedo *= dvec3(0.5, 0.8, 1.1);
+    }
 
     const double pixel = 2 * std::tan(0.5 * scene.camera.verticalFov) / scene.image.height;
     Random random(static_cast<std::uint64_t>(count));
@@ -145,6 +158,7 @@ scene::Scene makeSpheres(int count, double radiusPixels) {
         // A small sphere off the axis covers 1/cos(angle) more than one on it.
         sphere.radius = radiusPixels * pixel * depth / std::pow(1 + x * x + y * y, 0.25);
         sphere.density = 0.4 / (2 * sphere.radius);
+        sphere.medium = static_cast<std::uint32_t>(i % mediumCount);
         scene.spheres.push_back(sphere);
     }
     return scene;

@@ -26,6 +26,7 @@ struct Needs {
     bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
                              ///< nothing but their summed depth
     bool orthographic = false;
+    float largestTint = 1;  ///< of all media, over channels and time
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
     std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h

@@ -8,7 +8,7 @@
 //         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
 //         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
-//         largest radiance behind (counters stopped, stoppedAtPpm).
+//         largest radiance that media or the background may still send (errorBound()).
 // Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
 #include <oit/bindings.hpp>
 #include <oit/pixel_lists.hpp>
@@ -53,6 +53,7 @@ class Tile final : public OitMethod {
     void prepare(const MeasureFunction& measure) override;
     void declare(frame::FrameBuilder& frame, const Inputs& inputs) override;
     std::map<std::string, std::uint64_t> counters() override;
+    std::optional<double> errorBound() override;
     std::map<std::string, std::uint64_t> bytes() const override;
 
   private:
@@ -178,7 +179,8 @@ shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCoun
             .classes = mClasses.deviceAddress(),
             .counters = mCounters.deviceAddress(),
             .tileCount = tileCount,
-            .epsilon = mSettings.epsilon};
+            .epsilon = mSettings.epsilon,
+            .largestTint = mNeeds.largestTint};
 }
 
 void Tile::prepare(const MeasureFunction& measure) {
@@ -340,9 +342,11 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] = own.stopped;
-    counters["stoppedAtPpm"] =
-        static_cast<std::uint64_t>(1e6 * std::bit_cast<float>(own.transmittance));
     return counters;
+}
+
+std::optional<double> Tile::errorBound() {
+    return std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
 }
 
 std::map<std::string, std::uint64_t> Tile::bytes() const {

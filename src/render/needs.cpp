@@ -65,6 +65,17 @@ bool hasOneMedium(const PreparedScene& prepared) {
     return media.size() == 1 && tints.size() == 1;
 }
 
+float findLargestTint(const PreparedScene& prepared) {
+    float largest = 1;
+    const auto extend = [&](const vec3& tint) {
+        largest = std::max({largest, tint.x, tint.y, tint.z});
+    };
+    for (const scene::MediumSphere& sphere : prepared.spheres) extend(sphere.tint);
+    for (const scene::EffectInstance& effect : prepared.scene.effects)
+        for (const auto& [age, tint] : effect.effect.tint.keys) extend(vec3(tint));
+    return largest;
+}
+
 }  // namespace
 
 oit::Needs findNeeds(const PreparedScene& prepared) {
@@ -89,6 +100,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     }
     needs.oneMedium = hasOneMedium(prepared);
     needs.oneSource = needs.oneMedium && !needs.varyingLight;
+    needs.largestTint = findLargestTint(prepared);
     needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }

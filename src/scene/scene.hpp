@@ -158,7 +158,7 @@ struct EffectInstance {
 };
 
 struct RenderSettings {
-    std::string method = "linked_list";
+    std::string method = "tile";
     Settings settings;
 };
 

@@ -67,9 +67,21 @@ void crossBox(BoxData box, float limit) {
     }
 }
 
-float findRest() {
-    vec3 rest = path.surfaces * path.decay;
-    return max(rest.x, max(rest.y, rest.z));
+float findRest() { return largest(path.surfaces * path.decay); }
+
+// No phase function and no lamp sends more than this along the ray, per optical depth.
+vec3 findLargestSource() {
+    float g = abs(medium.g);
+    float phase = medium.phase == kPhaseHenyeyGreenstein
+                      ? phaseHenyeyGreenstein(1.0, g)
+                      : phaseFunction(medium.phase, 0.0, 1.0);
+    vec3 light = frame.ambient;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        float radius = lights[i].radius;
+        bool isFar = lights[i].type == kLightDirectional;
+        light += phase * lights[i].color / (isFar ? 1.0 : max(radius * radius, 1e-12));
+    }
+    return medium.albedo * light + medium.emission / max(medium.extinction, vec3(1e-30));
 }
 
 void main() {
@@ -83,16 +95,18 @@ void main() {
     path = beginPath();
     uint box = UintArray(push.boxOffsets).at[tile];
     uint last = UintArray(push.boxOffsets).at[tile + 1u];
-    float stop = max(push.epsilon, 1e-20);
+    bool isAbsorbed = all(lessThanEqual(medium.emission, medium.extinction * 1e20));
+    float stop = isAbsorbed ? max(push.epsilon, 1e-20) : 0.0;
     while (box < last && findRest() >= stop) {
         ++steps;
         crossBox(boxes[UintArray(push.boxPairs).at[box]], limit);
         ++box;
     }
+    vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
+    vec3 rest = path.surfaces * path.decay;
+    imageStore(result, ivec2(pixel), vec4(path.radiance + rest * behind, 1.0));
     if (steps >= kMostSteps)
         countExhausted();
-    else if (box < last)
-        countStop(findRest());
-    vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
-    imageStore(result, ivec2(pixel), vec4(path.radiance + path.surfaces * path.decay * behind, 1.0));
+    else if (box < last && push.epsilon > 0.0)
+        countStop(boundError(rest, findLargestSource(), behind));
 }

@@ -94,9 +94,15 @@ const uint kMostSteps = 60000u;
 
 void countExhausted() { atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u); }
 
-void countStop(float transmittance) {
+void countStop(float bound) {
     atomicAdd(CounterBlock(push.counters).counters.stopped, 1u);
-    atomicMax(CounterBlock(push.counters).counters.transmittance, floatBitsToUint(transmittance));
+    atomicMax(CounterBlock(push.counters).counters.bound, floatBitsToUint(bound));
 }
+
+float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// What a pixel may be off that has stopped at transmittance `rest` and shows what is behind the
+// media, while media of radiances up to `media` (per optical depth) may be in between.
+float boundError(vec3 rest, vec3 media, vec3 behind) { return largest(rest * max(media, behind)); }
 
 #endif

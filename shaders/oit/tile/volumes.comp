@@ -62,11 +62,6 @@ void main() {
         addLength(sum, lost, densityLength(data, findChord(ray, limit, data)));
         ++sphere;
     }
-    if (steps >= kMostSteps)
-        countExhausted();
-    else if (box < lastBox || sphere < lastSphere)
-        countStop(push.epsilon);
-
     vec3 light = scatteredRadiance(medium, vec3(0), vec3(ray.direction));
     vec3 source = medium.extinction * medium.albedo * light + medium.emission;
     vec3 depth = min(extinction * sum, vec3(1e30));
@@ -74,4 +69,9 @@ void main() {
     vec3 radiance = source * (sum * meanDecay(depth, rest));
     vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
     imageStore(result, ivec2(pixel), vec4(radiance + rest * behind, 1.0));
+    vec3 most = push.largestTint * source / max(extinction, vec3(1e-30));
+    if (steps >= kMostSteps)
+        countExhausted();
+    else if (box < lastBox || sphere < lastSphere)
+        countStop(boundError(rest, most, behind));
 }
