@@ -35,13 +35,9 @@ function(brume_library name)
 endfunction()
 
 # brume_test(scene SOURCES loader_test.cpp DEPENDS brume_scene [LABELS cpu]): one executable per
-# area of tests/, each test of it known to CTest by its own name. FILTER (as --gtest_filter) keeps
-# long ones out of CTest; they are run by the executable itself.
+# area of tests/, each test of it known to CTest by its own name.
 function(brume_test area)
-  cmake_parse_arguments(ARG "" "TIMEOUT;FILTER" "SOURCES;DEPENDS;LABELS" ${ARGN})
-  if(NOT ARG_FILTER)
-    set(ARG_FILTER "*")
-  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
@@ -55,6 +51,5 @@ function(brume_test area)
     BRUME_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     BRUME_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
   gtest_discover_tests(brume_${area}_tests TEST_PREFIX "${area}." DISCOVERY_MODE PRE_TEST
-    TEST_FILTER "${ARG_FILTER}"
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -5,19 +5,28 @@ find_program(SPIRV_OPT spirv-opt REQUIRED)
 
 # brume_shaders(brume_oit oit/linked_list/resolve.comp ...): paths below shaders/. Each file
 # becomes the header <spv/oit/linked_list/resolve.comp.hpp>, which defines
-# brume::spv::oit_linked_list_resolve_comp (constexpr uint32_t[]).
+# brume::spv::oit_linked_list_resolve_comp (constexpr uint32_t[]). Those named again behind FLOAT64
+# are compiled a second time, with BRUME_FLOAT64 defined, as ..._comp_float64.
 function(brume_shaders target)
+  cmake_parse_arguments(ARG "" "" "FLOAT64" ${ARGN})
   set(headers)
-  foreach(shader IN LISTS ARGN)
+  list(TRANSFORM ARG_FLOAT64 APPEND "|float64" OUTPUT_VARIABLE float64)
+  foreach(variant IN LISTS ARG_UNPARSED_ARGUMENTS float64)
+    string(REGEX REPLACE "[|].*" "" shader ${variant})
+    string(REGEX REPLACE "[|]" "." name ${variant})
+    set(defines)
+    if(variant MATCHES "float64$")
+      set(defines -DBRUME_FLOAT64)
+    endif()
     set(source ${PROJECT_SOURCE_DIR}/shaders/${shader})
-    set(spirv ${CMAKE_BINARY_DIR}/spirv/${shader}.spv)
-    set(header ${CMAKE_BINARY_DIR}/generated/spv/${shader}.hpp)
-    string(REGEX REPLACE "[/.]" "_" symbol ${shader})
+    set(spirv ${CMAKE_BINARY_DIR}/spirv/${name}.spv)
+    set(header ${CMAKE_BINARY_DIR}/generated/spv/${name}.hpp)
+    string(REGEX REPLACE "[/.]" "_" symbol ${name})
     cmake_path(GET spirv PARENT_PATH spirv_folder)
     file(MAKE_DIRECTORY ${spirv_folder})
     add_custom_command(
       OUTPUT ${header}
-      COMMAND ${GLSLANG_VALIDATOR} -V --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders
+      COMMAND ${GLSLANG_VALIDATOR} -V --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders ${defines}
               --depfile ${spirv}.d -o ${spirv}.raw ${source}
       COMMAND ${SPIRV_OPT} -O ${spirv}.raw -o ${spirv}
       COMMAND ${CMAKE_COMMAND} -DINPUT=${spirv} -DOUTPUT=${header} -DSYMBOL=${symbol}
@@ -27,7 +36,7 @@ function(brume_shaders target)
       MAIN_DEPENDENCY ${source}
       DEPENDS ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
       DEPFILE ${spirv}.d
-      COMMENT "Compiling shader ${shader}"
+      COMMENT "Compiling shader ${name}"
       VERBATIM)
     list(APPEND headers ${header})
   endforeach()

@@ -23,33 +23,58 @@ vec2 tangentSlopes(float x, float z, float r) {
                 highDepth > 0.0 ? (x * t + z * r) / highDepth : 1e30);
 }
 
-Bounds sphereBounds(vec3 center, float radius) {
-    vec3 view = vec3(dot(center, frame.right), dot(center, frame.up), dot(center, frame.forward));
+// `view`: the centre along right, up and forward of the viewer.
+Bounds sphereBoundsInView(vec3 view, float radius, bool isOrthographic) {
     // A little larger: rays and projection round differently.
     float r = radius * 1.00001 + 1e-6 * length(view);
     if (view.z + r <= 0.0) return kNowhere;
-    if (frame.orthographic != 0u) return Bounds(view.xy - r, view.xy + r, true);
+    if (isOrthographic) return Bounds(view.xy - r, view.xy + r, true);
     vec2 x = tangentSlopes(view.x, view.z, r), y = tangentSlopes(view.y, view.z, r);
     return Bounds(vec2(x.x, y.x), vec2(x.y, y.y), true);
 }
 
+// Of a convex thing, corner by corner: begin, add each, finish.
+struct CornerBounds {
+    vec2 lo, hi;
+    float nearest, farthest;
+};
+
+CornerBounds beginCorners() { return CornerBounds(vec2(1e30), vec2(-1e30), 1e30, -1e30); }
+
+void addCorner(inout CornerBounds sum, vec3 view, bool isOrthographic) {
+    sum.nearest = min(sum.nearest, view.z);
+    sum.farthest = max(sum.farthest, view.z);
+    vec2 s = isOrthographic ? view.xy : view.xy / max(view.z, 1e-30);
+    sum.lo = min(sum.lo, s);
+    sum.hi = max(sum.hi, s);
+}
+
+Bounds finishCorners(CornerBounds sum, bool isOrthographic) {
+    if (sum.farthest <= 0.0) return kNowhere;
+    if (!isOrthographic && sum.nearest <= 1e-4 * sum.farthest) return kWholeScreen;
+    vec2 slack = 1e-6 * (abs(sum.lo) + abs(sum.hi));
+    return Bounds(sum.lo - slack, sum.hi + slack, true);
+}
+
+vec3 boxCorner(BoxData box, VolumeData volume, uint corner) {
+    vec3 local = box.size * vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
+    return box.corner + volume.worldFromIndex * local;
+}
+
+vec3 cameraCoordinates(vec3 p) {
+    return vec3(dot(p, frame.right), dot(p, frame.up), dot(p, frame.forward));
+}
+
+Bounds sphereBounds(vec3 center, float radius) {
+    return sphereBoundsInView(cameraCoordinates(center), radius, frame.orthographic != 0u);
+}
+
 Bounds boxBounds(BoxData box, VolumeData volume) {
-    vec2 lo = vec2(1e30), hi = vec2(-1e30);
-    float nearest = 1e30, farthest = -1e30;
-    for (uint c = 0u; c < 8u; ++c) {
-        vec3 local = box.size * vec3(c & 1u, c >> 1u & 1u, c >> 2u);
-        vec3 p = box.corner + volume.worldFromIndex * local;
-        vec3 view = vec3(dot(p, frame.right), dot(p, frame.up), dot(p, frame.forward));
-        nearest = min(nearest, view.z);
-        farthest = max(farthest, view.z);
-        vec2 s = frame.orthographic != 0u ? view.xy : view.xy / max(view.z, 1e-30);
-        lo = min(lo, s);
-        hi = max(hi, s);
-    }
-    if (farthest <= 0.0) return kNowhere;
-    if (frame.orthographic == 0u && nearest <= 1e-4 * farthest) return kWholeScreen;
-    vec2 slack = 1e-6 * (abs(lo) + abs(hi));
-    return Bounds(lo - slack, hi + slack, true);
+    bool isOrthographic = frame.orthographic != 0u;
+    CornerBounds corners = beginCorners();
+    for (uint c = 0u; c < 8u; ++c)
+        addCorner(corners, cameraCoordinates(boxCorner(box, volume, c)), isOrthographic);
+    return finishCorners(corners, isOrthographic);
 }
 
 #endif

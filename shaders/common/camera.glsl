@@ -3,10 +3,16 @@
 #ifndef BRUME_COMMON_CAMERA_GLSL
 #define BRUME_COMMON_CAMERA_GLSL
 #include "bindings.glsl"
+#include "real.glsl"
 
 struct Ray {
     vec3 origin;     // relative to the camera; 0 in perspective
     vec3 direction;  // unit
+};
+
+// The same ray, finer.
+struct RealRay {
+    Real3 origin, direction;
 };
 
 // `position`: pixels from the top-left corner; centres at + 0.5.
@@ -18,6 +24,21 @@ Ray makeRay(vec2 position) {
     Ray ray;
     ray.origin = frame.orthographic != 0u ? offset : vec3(0);
     ray.direction = frame.orthographic != 0u ? frame.forward : normalize(frame.forward + offset);
+    return ray;
+}
+
+RealRay makeRealRay(vec2 position) {
+    precise Real2 s = Real2(Real(2) * Real(position.x) / Real(frame.size.x) - Real(1),
+                            Real(1) - Real(2) * Real(position.y) / Real(frame.size.y)) *
+                      Real2(makeReal(frame.extentX, frame.extentXLo),
+                            makeReal(frame.extentY, frame.extentYLo));
+    Real3 offset = s.x * makeReal(frame.right, frame.rightLo) + s.y * makeReal(frame.up, frame.upLo);
+    Real3 forward = makeReal(frame.forward, frame.forwardLo);
+    Real3 towards = forward + offset;
+    RealRay ray;
+    ray.origin = frame.orthographic != 0u ? offset : Real3(0);
+    ray.direction =
+        frame.orthographic != 0u ? forward : towards / sqrt(dot(towards, towards));
     return ray;
 }
 

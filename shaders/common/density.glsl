@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The density of media along a ray: what Gauss's nodes ask for.
+// The density of media along a ray.
 #ifndef BRUME_COMMON_DENSITY_GLSL
 #define BRUME_COMMON_DENSITY_GLSL
-#include "camera.glsl"
+#include "chords.glsl"
 
 layout(buffer_reference, scalar) readonly buffer BrickValues { float at[]; };
 
@@ -11,10 +11,11 @@ struct LocalRay {
     vec3 origin, direction;
 };
 
-LocalRay localRay(Ray ray, BoxData box, VolumeData volume, float position) {
-    vec3 direction = volume.indexFromWorld * ray.direction;
-    return LocalRay(volume.indexFromWorld * (ray.origin - box.corner) + direction * position,
-                    direction);
+LocalRay localRay(RealRay ray, BoxData box, VolumeData volume, Real position) {
+    Real3 fromCorner =
+        (ray.origin - makeReal(box.corner, box.cornerLo)) + ray.direction * position;
+    return LocalRay(volume.indexFromWorld * vec3(fromCorner),
+                    volume.indexFromWorld * vec3(ray.direction));
 }
 
 // The next offset behind `offset` at which the ray crosses a plane between cells.
@@ -58,40 +59,58 @@ float trilinear(vec4 low, vec4 high, vec3 f) {
     return mix(y.x, y.y, f.x);
 }
 
-// At three offsets, within one cell.
-vec3 boxDensities(BoxData box, LocalRay local, vec3 t) {
-    if (box.kind == kBoxHard) return vec3(box.value);
-    vec3 densities;
-    if (box.kind == kBoxBrick) {
-        vec4 low, high;
-        vec3 cell;
-        loadCell(box, local.origin + local.direction * t.y, low, high, cell);
-        for (int k = 0; k < 3; ++k)
-            densities[k] =
-                trilinear(low, high, clamp(local.origin + local.direction * t[k] - cell, 0.0, 1.0));
-        return densities;
-    }
-    for (int k = 0; k < 3; ++k) {
-        vec3 p = local.origin + local.direction * t[k];
-        vec3 ramp = clamp(min(p, box.size - p), 0.0, 1.0);
-        densities[k] = box.value * ramp.x * ramp.y * ramp.z;
-    }
-    return densities;
+// A box's density along a ray within one cell: at(offset) = boxDensity().
+struct BoxDensity {
+    LocalRay local;
+    vec4 low, high;  // brick: the cell's corners
+    vec3 cell;
+    vec3 size;
+    uint kind;
+    float value;
+};
+
+// `middle`: any offset inside the cell.
+BoxDensity makeBoxDensity(BoxData box, LocalRay local, float middle) {
+    BoxDensity density;
+    density.local = local;
+    density.size = box.size;
+    density.kind = box.kind;
+    density.value = box.value;
+    if (box.kind == kBoxBrick)
+        loadCell(box, local.origin + local.direction * middle, density.low, density.high,
+                 density.cell);
+    return density;
 }
 
-// At three offsets behind `position`. From the distances to both ends of the chord, so that the
-// density keeps its digits near them.
-vec3 sphereDensities(Ray ray, SphereData sphere, float position, vec3 offsets) {
-    if (sphere.profile == kProfileConstant) return vec3(sphere.density);
-    precise vec3 offset = sphere.center - ray.origin;
-    precise float middle = dot(offset, ray.direction);
-    precise vec3 perpendicular = offset - middle * ray.direction;
-    precise float h2 = sphere.radius * sphere.radius - dot(perpendicular, perpendicular);
-    precise float h = sqrt(max(h2, 0.0));
-    precise float enter = middle - h, leave = middle + h;
-    precise float behind = position - enter, ahead = leave - position;
-    vec3 q = max((behind + offsets) * (ahead - offsets), 0.0) / (sphere.radius * sphere.radius);
-    return sphere.density * q * q;
+float boxDensity(BoxDensity density, float offset) {
+    vec3 p = density.local.origin + density.local.direction * offset;
+    if (density.kind == kBoxBrick)
+        return trilinear(density.low, density.high, clamp(p - density.cell, 0.0, 1.0));
+    vec3 ramp = clamp(min(p, density.size - p), 0.0, 1.0);
+    return density.value * (density.kind == kBoxSoft ? ramp.x * ramp.y * ramp.z : 1.0);
+}
+
+// A sphere's density along a ray: at(offset) = sphereDensity(). From the distances to both ends of
+// the chord, so that it keeps its digits near them.
+struct SphereDensity {
+    float behind, ahead;  // from the position to the ends of the chord
+    float smoothScale;    // density / R^4, or 0
+    float constant;       // density, or 0
+};
+
+SphereDensity makeSphereDensity(RealRay ray, SphereData sphere, Real position) {
+    SphereChord chord = findSphereChord(ray, sphere);
+    bool isConstant = sphere.profile == kProfileConstant;
+    float r2 = sphere.radius * sphere.radius;
+    return SphereDensity(float(position - (chord.middle - chord.reach)),
+                         float((chord.middle + chord.reach) - position),
+                         isConstant ? 0.0 : sphere.density / (r2 * r2),
+                         isConstant ? sphere.density : 0.0);
+}
+
+float sphereDensity(SphereDensity density, float offset) {
+    float q = max((density.behind + offset) * (density.ahead - offset), 0.0);
+    return density.constant + density.smoothScale * q * q;
 }
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every pass of a frame may read: camera, counts, lights, media, volumes; C++ and GLSL.
-// All positions are relative to the camera position, axes as in the world, metres.
+// All positions are relative to the camera position, axes as in the world, metres. A member ...Lo
+// is what rounding to float has taken from the member before it: real.glsl adds both.
 #ifndef BRUME_SHADERS_COMMON_FRAME_H
 #define BRUME_SHADERS_COMMON_FRAME_H
 #include "shared.h"
@@ -8,11 +9,12 @@
 BRUME_STRUCTS_BEGIN
 
 struct FrameData {
-    vec3 right;
-    float extentX;  // half width of the image plane (perspective: at distance 1; orthographic: m)
-    vec3 up;
-    float extentY;
-    vec3 forward;
+    vec3 right, rightLo;
+    float extentX, extentXLo;  // half width of the image plane (perspective: at distance 1;
+                               // orthographic: m)
+    vec3 up, upLo;
+    float extentY, extentYLo;
+    vec3 forward, forwardLo;
     float near;    // m, nearest view depth of triangles
     vec3 ambient;  // radiance of the ambient lights together
     uint orthographic;
@@ -41,6 +43,8 @@ struct LightData {
     vec3 direction;  // unit, in which the light travels
     float cosInner;
     float cosOuter;
+    uint64_t
+        shadow;  // address of its ShadowMap (shadows/common/maps.h); 0: shines through everything
 };
 
 BRUME_CONST uint kPhaseIsotropic = 0u;
@@ -67,7 +71,7 @@ BRUME_CONST uint kBoxHard = 2u;   // constant
 
 // A brick or box of a volume. Local coordinates: index steps from its low corner, in [0, size].
 struct BoxData {
-    vec3 corner;  // the low corner, m relative to the camera
+    vec3 corner, cornerLo;  // the low corner, m relative to the camera
     uint volume;
     vec3 size;  // index steps
     uint kind;
@@ -80,11 +84,11 @@ BRUME_CONST uint kTileSize = 8u;  // pixels per edge of a screen tile
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::FrameData) == 136);
-static_assert(offsetof(brume::shader::FrameData, size) == 80);
-static_assert(sizeof(brume::shader::LightData) == 52);
+static_assert(sizeof(brume::shader::FrameData) == 176);
+static_assert(offsetof(brume::shader::FrameData, size) == 124);
+static_assert(sizeof(brume::shader::LightData) == 64);
 static_assert(sizeof(brume::shader::MediumData) == 44);
 static_assert(sizeof(brume::shader::VolumeData) == 76);
-static_assert(sizeof(brume::shader::BoxData) == 40);
+static_assert(sizeof(brume::shader::BoxData) == 52);
 #endif
 #endif

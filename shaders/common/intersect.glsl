@@ -3,6 +3,22 @@
 // a pass that counts and a pass that stores must decide alike.
 #ifndef BRUME_COMMON_INTERSECT_GLSL
 #define BRUME_COMMON_INTERSECT_GLSL
+#include "real.glsl"
+
+// Whether a finer ray than this one may hit: true for every hit, and for what rounding may have
+// made a miss. `t`: as of intersectSphere(); where that misses, the middle of the finer chord.
+bool mayHitSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
+    precise vec3 offset = center - origin;
+    precise float middle = dot(offset, direction);
+    precise vec3 perpendicular = offset - middle * direction;
+    precise float h2 = radius * radius - dot(perpendicular, perpendicular);
+    precise float h = sqrt(max(h2, 0.0));
+    precise float enter = max(middle - h, 0.0), leave = middle + h;
+    t = vec2(enter, leave);
+    precise float slack = 1e-6 * radius * (radius + abs(middle));
+    precise float end = leave + 2e-6 * abs(middle);
+    return h2 + slack > 0.0 && end > enter;
+}
 
 // False where the ray misses; tangent within rounding is a miss. Perpendicular form: the textbook
 // b^2 - c loses most hits of a small sphere far away.
@@ -15,6 +31,25 @@ bool intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, out
     precise float enter = max(middle - h, 0.0), leave = middle + h;
     t = vec2(enter, leave);
     return h2 > 0.0 && leave > enter;
+}
+
+// As mayHitSphere().
+bool mayHitBox(vec3 origin, vec3 direction, vec3 size, out vec2 t) {
+    t = vec2(0.0, 3.0e38);
+    precise vec2 wide = t;
+    bool hit = true;
+    precise vec3 slack = 1e-6 * (abs(origin) + size);
+    for (int axis = 0; axis < 3; ++axis) {
+        float o = origin[axis], d = direction[axis], s = size[axis];
+        if (abs(d) < 1e-30) {
+            hit = hit && o >= -slack[axis] && o <= s + slack[axis];
+        } else {
+            precise float a = -o / d, b = (s - o) / d, more = slack[axis] / abs(d);
+            t = vec2(max(t.x, min(a, b)), min(t.y, max(a, b)));
+            wide = vec2(max(wide.x, min(a, b) - more), min(wide.y, max(a, b) + more));
+        }
+    }
+    return hit && wide.y > wide.x;
 }
 
 // `origin` and `direction` in the box's local coordinates, box [0, size]. A ray in a face's plane

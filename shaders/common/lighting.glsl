@@ -2,7 +2,7 @@
 // How much light arrives at a point, and what a medium scatters of it towards the eye.
 #ifndef BRUME_COMMON_LIGHTING_GLSL
 #define BRUME_COMMON_LIGHTING_GLSL
-#include "../shadows/none/transmittance.glsl"
+#include "../shadows/transmittance.glsl"
 #include "bindings.glsl"
 #include "phase.glsl"
 
@@ -43,7 +43,8 @@ vec3 diffuseRadiance(vec3 position, vec3 normal) {
     vec3 sum = frame.ambient;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec3 travel;
-        vec3 irradiance = lightIrradiance(lights[i], i, position, travel);
+        vec3 lit = position + normal * shadowOffset(i, position);
+        vec3 irradiance = lightIrradiance(lights[i], i, lit, travel);
         sum += irradiance * (max(-dot(travel, normal), 0.0) * 0.3183098861837907);
     }
     return sum;

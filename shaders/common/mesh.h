@@ -13,7 +13,7 @@ struct VertexData {
 };
 
 struct MeshData {
-    mat4x3 relativeFromObject;  // to metres relative to the camera
+    mat4x3 relativeFromObject, relativeFromObjectLo;  // to metres relative to the camera
     mat3 normalFromObject;
     uint firstVertex;
     uint firstIndex;
@@ -33,6 +33,8 @@ struct MaterialData {
     vec3 reflected;     // thin
     vec3 extinction;    // solid, 1/m
     vec3 scattering;    // solid, 1/m
+    float collimation;  // thin: 1 keeps the background sharp
+    float ior;          // thin and solid
 };
 
 // Own bindings of every pass that draws meshes.
@@ -56,8 +58,8 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::VertexData) == 32);
-static_assert(sizeof(brume::shader::MeshData) == 92);
-static_assert(offsetof(brume::shader::MeshData, firstVertex) == 84);
-static_assert(sizeof(brume::shader::MaterialData) == 84);
+static_assert(sizeof(brume::shader::MeshData) == 140);
+static_assert(offsetof(brume::shader::MeshData, firstVertex) == 132);
+static_assert(sizeof(brume::shader::MaterialData) == 92);
 #endif
 #endif

@@ -6,6 +6,7 @@
 #include "bindings.glsl"
 #include "camera.glsl"
 #include "mesh.h"
+#include "real.glsl"
 
 layout(binding = kBindingVertices, scalar) readonly buffer Vertices { VertexData vertices[]; };
 layout(binding = kBindingIndices, scalar) readonly buffer Indices { uint indices[]; };
@@ -15,22 +16,30 @@ layout(location = 0) out vec3 normal;
 layout(location = 1) out vec2 uv;
 layout(location = 2) flat out vec4 plane;  // unit outward normal, its dot product with a corner
 layout(location = 3) flat out uint triangle;
+layout(location = 4) flat out vec4 planeLo;  // what rounding has taken from it
 
-vec3 relativePosition(uint corner) {
+Real3 relativePosition(uint corner) {
     VertexData vertex = vertices[mesh.firstVertex + indices[mesh.firstIndex + corner]];
-    return mesh.relativeFromObject * vec4(vertex.position, 1.0);
+    Real3 p = Real3(vertex.position);
+    Real3 sum = makeReal(mesh.relativeFromObject[3], mesh.relativeFromObjectLo[3]);
+    for (int axis = 0; axis < 3; ++axis)
+        sum += p[axis] *
+               makeReal(mesh.relativeFromObject[axis], mesh.relativeFromObjectLo[axis]);
+    return sum;
 }
 
 void main() {
     triangle = gl_VertexIndex / 3;
-    vec3 corners[3];
+    Real3 corners[3];
     for (uint i = 0u; i < 3u; ++i) corners[i] = relativePosition(triangle * 3u + i);
-    vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    float area = length(across);
-    plane.xyz = area > 0.0 ? across / area : vec3(0);
-    plane.w = dot(plane.xyz, corners[0]);
+    Real3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    Real area = length(across);
+    Real3 unit = area > Real(0) ? across / area : Real3(0);
+    Real distance = dot(unit, corners[0]);
+    plane = vec4(vec3(unit), float(distance));
+    planeLo = vec4(vec3(unit - Real3(plane.xyz)), findLo(distance));
     VertexData vertex = vertices[mesh.firstVertex + indices[mesh.firstIndex + gl_VertexIndex]];
     normal = mesh.normalFromObject * vertex.normal;
     uv = vertex.uv;
-    gl_Position = clipFromRelative(corners[gl_VertexIndex % 3]);
+    gl_Position = clipFromRelative(vec3(corners[gl_VertexIndex % 3]));
 }

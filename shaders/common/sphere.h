@@ -8,6 +8,7 @@ BRUME_STRUCTS_BEGIN
 
 struct SphereData {
     vec3 center;    // m, relative to the camera
+    vec3 centerLo;  // what rounding has taken from it
     float radius;   // m; <= 0: nothing there
     vec3 tint;      // multiplies albedo and emission
     float density;  // multiplies extinction, scattering and emission
@@ -22,7 +23,7 @@ BRUME_CONST uint kProfileSmooth = 1u;  // density (1 - r^2/R^2)^2
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::SphereData) == 44);
-static_assert(offsetof(brume::shader::SphereData, tint) == 16);
+static_assert(sizeof(brume::shader::SphereData) == 56);
+static_assert(offsetof(brume::shader::SphereData, tint) == 28);
 #endif
 #endif

@@ -10,6 +10,7 @@ layout(location = 0) in vec3 normal;
 layout(location = 1) in vec2 uv;
 layout(location = 2) flat in vec4 plane;
 layout(location = 3) flat in uint triangle;
+layout(location = 4) flat in vec4 planeLo;
 
 layout(binding = kBindingMaterial, scalar) uniform MaterialBlock { MaterialData material; };
 layout(binding = kBindingColorTexture) uniform sampler2D colorTexture;
@@ -21,22 +22,28 @@ struct SurfacePoint {
     vec3 normal;  // unit, towards the viewer
     vec4 color;   // of the texture
     float t;      // distance along the ray
+    float tLo;    // what rounding has taken from it
     bool isFront;
 };
 
 // Discards what an alpha cutoff removes.
 SurfacePoint findSurfacePoint() {
-    Ray ray = makeRay(gl_FragCoord.xy);
+    RealRay ray = makeRealRay(gl_FragCoord.xy);
+    vec3 direction = vec3(ray.direction);
     SurfacePoint point;
-    float facing = dot(plane.xyz, ray.direction);
-    point.isFront = facing < 0.0;
-    point.t = (plane.w - dot(plane.xyz, ray.origin)) / (abs(facing) > 1e-20 ? facing : 1e-20);
-    point.position = ray.origin + ray.direction * point.t;
+    Real3 planeNormal = makeReal(plane.xyz, planeLo.xyz);
+    Real facing = dot(planeNormal, ray.direction);
+    Real t = (makeReal(plane.w, planeLo.w) - dot(planeNormal, ray.origin)) /
+             (abs(facing) > Real(1e-20) ? facing : Real(1e-20));
+    point.isFront = facing < Real(0);
+    point.t = float(t);
+    point.tLo = findLo(t);
+    point.position = vec3(ray.origin + ray.direction * t);
     point.material = material;
     point.color = textureLod(colorTexture, uv, 0.0);
     if (point.color.a * material.coverage < material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
-    point.normal = dot(n, ray.direction) > 0.0 ? -n : n;
+    point.normal = dot(n, direction) > 0.0 ? -n : n;
     return point;
 }
 

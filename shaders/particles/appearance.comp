@@ -5,6 +5,7 @@
 #include "passes.h"
 
 #include "effect_block.glsl"
+#include "../common/exponential.glsl"
 #include "appearance.h"
 
 layout(local_size_x_id = 0) in;
@@ -19,18 +20,21 @@ layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer Part
 void main() {
     uint slot = gl_GlobalInvocationID.x +
                 gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    TickTotals totals_ = totals[push.instance];
-    if (slot >= totals_.slots) return;
-    SphereData sphere = SphereData(vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
-    if (slot < totals_.counters.alive) {
+    TickTotals state = totals[push.instance];
+    if (slot >= state.slots) return;
+    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
+    if (slot < state.counters.alive) {
         uint i = push.firstSlot + slot;
         ParticleLife life = lives[i];
         vec3 velocity = velocities[i];
         Appearance appearance =
             evaluateAppearance(normalisedAge(life, push.lastTick, push.sinceTick), length(velocity));
         vec3 position = positions[i] + velocity * push.sinceTickSeconds;
-        sphere.center = push.origin + push.axisX * position.x + push.axisY * position.y +
-                        push.axisZ * position.z;
+        sphere.center = push.origin;
+        sphere.centerLo = push.originLo;
+        addExactly(sphere.center, sphere.centerLo, push.axisX * position.x);
+        addExactly(sphere.center, sphere.centerLo, push.axisY * position.y);
+        addExactly(sphere.center, sphere.centerLo, push.axisZ * position.z);
         bool isShown = isShownAt(life, push.lastTick, push.sinceTick);
         sphere.radius = isShown ? appearance.radius * push.radiusScale : 0;
         sphere.tint = appearance.tint;

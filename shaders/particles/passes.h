@@ -101,6 +101,7 @@ struct AppearancePush {
     vec3 axisY;
     vec3 axisZ;
     vec3 origin;
+    vec3 originLo;  // what rounding has taken from it
     float radiusScale;
     uint firstSphere;
     uint lastTick;
@@ -116,6 +117,6 @@ struct AppearancePush {
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(offsetof(brume::shader::AppearancePush, radiusScale) == 48);
+static_assert(offsetof(brume::shader::AppearancePush, radiusScale) == 60);
 #endif
 #endif

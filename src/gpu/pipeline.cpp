@@ -28,11 +28,19 @@ VkDescriptorType toVulkan(BindingType type) {
 // Specialization values laid out for Vulkan; must stay where it is while in use.
 struct Specialization {
     std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
     VkSpecializationInfo info{};
 
-    explicit Specialization(const std::vector<std::uint32_t>& values) {
-        for (std::uint32_t i = 0; i < values.size(); ++i)
+    Specialization(const std::vector<std::uint32_t>& inOrder,
+                   const std::vector<NumberedConstant>& numbered)
+        : values(inOrder) {
+        for (std::uint32_t i = 0; i < inOrder.size(); ++i)
             entries.push_back({i, i * 4u, sizeof(std::uint32_t)});
+        for (const NumberedConstant& constant : numbered) {
+            const auto index = static_cast<std::uint32_t>(values.size());
+            entries.push_back({constant.id, index * 4u, sizeof(std::uint32_t)});
+            values.push_back(constant.value);
+        }
         info.mapEntryCount = static_cast<std::uint32_t>(entries.size());
         info.pMapEntries = entries.data();
         info.dataSize = values.size() * sizeof(std::uint32_t);
@@ -228,7 +236,7 @@ ComputePipeline::ComputePipeline(Device& device, const ComputePipelineDesc& desc
     mOwner = ObjectOwner(device, "pipeline", mName);
     makeLayout(device);
     const Module module(device, desc.spirv, mName);
-    const Specialization specialization(desc.specialization);
+    const Specialization specialization(desc.specialization, desc.constants);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization);
@@ -246,7 +254,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineDesc& d
     makeLayout(device);
     const Module vertex(device, desc.vertexSpirv, mName);
     const Module fragment(device, desc.fragmentSpirv, mName);
-    const Specialization specialization(desc.specialization);
+    const Specialization specialization(desc.specialization, desc.constants);
     const std::array stages = {vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialization),
                                fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialization)};
     const FixedState state(desc);

@@ -24,6 +24,12 @@ struct Binding {
     std::uint32_t count = 1;  ///< > 1: an array; the sum over a pipeline is <= maxPushDescriptors
 };
 
+/// A specialization constant by its constant_id.
+struct NumberedConstant {
+    std::uint32_t id = 0;
+    std::uint32_t value = 0;
+};
+
 struct ComputePipelineDesc {
     std::string name;
     std::span<const std::uint32_t> spirv;  ///< read during creation only
@@ -31,6 +37,7 @@ struct ComputePipelineDesc {
     std::uint32_t pushConstantBytes = 0;  ///< multiple of 4; portable up to 128
     /// The i-th value goes to constant_id = i: int, uint, bool, or a float through std::bit_cast.
     std::vector<std::uint32_t> specialization;
+    std::vector<NumberedConstant> constants;  ///< further ones, of included files
 };
 
 /// How a colour attachment takes a fragment: result = source * sourceFactor op target *
@@ -66,6 +73,7 @@ struct GraphicsPipelineDesc {
     std::vector<Binding> bindings;  ///< visible to both stages
     std::uint32_t pushConstantBytes = 0;
     std::vector<std::uint32_t> specialization;  ///< for both stages
+    std::vector<NumberedConstant> constants;    ///< further ones, of included files
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
     VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;

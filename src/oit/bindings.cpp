@@ -3,6 +3,7 @@
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
+#include <shaders/shadows/common/maps.h>
 
 namespace brume::oit {
 
@@ -34,15 +35,20 @@ std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gp
     return a;
 }
 
+std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
+    return {{shader::kConstantShadowStores, needs.shadowStores}};
+}
+
 void bindFrame(gpu::Commands& commands, const Inputs& inputs) {
     commands.bind(shader::kBindingFrame, *inputs.frame);
     commands.bind(shader::kBindingLights, *inputs.lights);
     commands.bind(shader::kBindingMedia, *inputs.media);
 }
 
-void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres) {
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres,
+               const gpu::Buffer& boxes) {
     commands.bind(shader::kBindingSpheres, spheres);
-    commands.bind(shader::kBindingBoxes, *inputs.boxes);
+    commands.bind(shader::kBindingBoxes, boxes);
     commands.bind(shader::kBindingVolumes, *inputs.volumes);
 }
 

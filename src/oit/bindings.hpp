@@ -17,9 +17,14 @@ std::vector<gpu::Binding> mediaBindings();
 std::vector<gpu::Binding> meshBindings();
 std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b);
 
+/// Constants of shaders/common/lighting.glsl: for every pipeline that lights something. Without
+/// them such a shader keeps the code of all shadow stores.
+std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs);
+
 void bindFrame(gpu::Commands& commands, const Inputs& inputs);
-/// `spheres`: sorted or as they came.
-void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres);
+/// `spheres` and `boxes`: sorted or as they came.
+void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer& spheres,
+               const gpu::Buffer& boxes);
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs);
 
 /// The mesh, material and textures of one draw.

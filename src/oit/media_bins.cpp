@@ -8,9 +8,11 @@
 #include <shaders/common/sphere.h>
 #include <shaders/oit/media_bins/bins.h>
 #include <spv/oit/media_bins/bin.comp.hpp>
+#include <spv/oit/media_bins/box_keys.comp.hpp>
 #include <spv/oit/media_bins/box_rects.comp.hpp>
 #include <spv/oit/media_bins/gather.comp.hpp>
 #include <spv/oit/media_bins/keys.comp.hpp>
+#include <spv/oit/media_bins/sort.comp.hpp>
 
 #include <algorithm>
 
@@ -33,17 +35,26 @@ gpu::ComputePipeline makePipeline(gpu::Device& device, const std::string& name,
 
 const gpu::Binding kSpheresBinding{shader::kBindingSpheres, gpu::BindingType::StorageBuffer};
 
+const std::vector<gpu::Binding> kBoxBindings = {
+    {shader::kBindingBoxes, gpu::BindingType::StorageBuffer},
+    {shader::kBindingVolumes, gpu::BindingType::StorageBuffer}};
+
 gpu::Buffer makeUints(gpu::Device& device, const std::string& name, std::uint64_t count) {
     return {device, {.name = name, .bytes = 4 * std::max<std::uint64_t>(count, 1)}};
 }
 
 }  // namespace
 
-MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs)
+std::uint32_t countTiles(VkExtent2D extent) {
+    return (extent.width + shader::kTileSize - 1) / shader::kTileSize *
+           ((extent.height + shader::kTileSize - 1) / shader::kTileSize);
+}
+
+MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs,
+                     bool areListsSorted)
     : mDevice(&device),
       mName(name),
-      mTileCount((inputs.extent.width + shader::kTileSize - 1) / shader::kTileSize *
-                 ((inputs.extent.height + shader::kTileSize - 1) / shader::kTileSize)),
+      mTileCount(countTiles(inputs.extent)),
       mIdentityKeys(makePipeline(device, name + ".identity_keys", spv::oit_media_bins_keys_comp,
                                  {kSpheresBinding}, {1})),
       mDistanceKeys(makePipeline(device, name + ".distance_keys", spv::oit_media_bins_keys_comp,
@@ -52,13 +63,26 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
           device, name + ".gather", spv::oit_media_bins_gather_comp,
           {kSpheresBinding, {shader::kBindingSortedSpheres, gpu::BindingType::StorageBuffer}})),
       mBoxRects(makePipeline(device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
-                             {{shader::kBindingBoxes, gpu::BindingType::StorageBuffer},
-                              {shader::kBindingVolumes, gpu::BindingType::StorageBuffer}})),
+                             join(kBoxBindings, {{shader::kBindingSortedBoxes,
+                                                  gpu::BindingType::StorageBuffer}}),
+                             {areListsSorted && inputs.boxCount > 0})),
       mBinCount(makePipeline(device, name + ".bin_count", spv::oit_media_bins_bin_comp, {}, {0})),
       mBinScatter(
           makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
       mPrefixSum(device) {
     const std::uint64_t sphereBytes = std::max(inputs.sphereCount, 1u) * sizeof(shader::SphereData);
+    if (areListsSorted)
+        mSortLists = makePipeline(device, name + ".sort_lists", spv::oit_media_bins_sort_comp, {});
+    if (areListsSorted && inputs.boxCount > 0) {
+        mBoxKeys = makePipeline(device, name + ".box_keys", spv::oit_media_bins_box_keys_comp,
+                                kBoxBindings);
+        mBoxSort.emplace(device, name + ".box_sort", inputs.boxCount);
+        mBoxKeyValues = makeUints(device, name + ".box_keys", inputs.boxCount);
+        mBoxValues = makeUints(device, name + ".box_values", inputs.boxCount);
+        mSortedBoxes = {device,
+                        {.name = name + ".sorted_boxes",
+                         .bytes = std::uint64_t{inputs.boxCount} * sizeof(shader::BoxData)}};
+    }
     if (inputs.sphereCount > 0) mSort.emplace(device, name + ".sort", inputs.sphereCount);
     mKeys = makeUints(device, name + ".keys", inputs.sphereCount);
     mValues = makeUints(device, name + ".values", inputs.sphereCount);
@@ -110,6 +134,40 @@ void MediaBins::recordSort(gpu::Commands& commands, const Inputs& inputs,
     run(mGather);
 }
 
+void MediaBins::recordBoxes(gpu::Commands& commands, const Inputs& inputs) const {
+    const shader::BinPush push{.keys = mBoxSort ? mBoxKeyValues.deviceAddress() : 0,
+                               .values = mBoxSort ? mBoxValues.deviceAddress() : 0,
+                               .rects = mBoxes.rects.deviceAddress(),
+                               .count = mBoxes.count};
+    const auto run = [&](const gpu::ComputePipeline& pipeline) {
+        commands.bindCompute(pipeline);
+        bindFrame(commands, inputs);
+        commands.bind(shader::kBindingBoxes, *inputs.boxes);
+        commands.bind(shader::kBindingVolumes, *inputs.volumes);
+        if (&pipeline == &mBoxRects)
+            commands.bind(shader::kBindingSortedBoxes, mBoxSort ? mSortedBoxes : mBoxes.rects);
+        commands.pushConstants(push);
+        commands.dispatch((mBoxes.count + 63) / 64);
+        commands.computeBarrier();
+    };
+    if (mBoxSort) {
+        run(mBoxKeys);
+        mBoxSort->record(commands, push.keys, push.values, push.count);
+        commands.computeBarrier();
+    }
+    run(mBoxRects);
+}
+
+void MediaBins::recordSortLists(gpu::Commands& commands, const Inputs& inputs,
+                                const Set& set) const {
+    commands.computeBarrier();
+    commands.bindCompute(mSortLists);
+    bindFrame(commands, inputs);
+    commands.pushConstants(shader::BinPush{.counts = set.offsets.deviceAddress(),
+                                           .pairs = set.pairs.deviceAddress()});
+    commands.dispatch((mTileCount + 63) / 64);
+}
+
 void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                           const gpu::ComputePipeline& pipeline) const {
     commands.bindCompute(pipeline);
@@ -135,6 +193,9 @@ void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
         for (const gpu::Buffer* buffer : {&set->offsets, &set->cursors})
             pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
     pass.reads(inputs.spheres, Access::ComputeRead);
+    if (mBoxSort)
+        for (const gpu::Buffer* buffer : {&mBoxKeyValues, &mBoxValues, &mSortedBoxes})
+            pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
     for (const gpu::Buffer* buffer :
          {&mKeys, &mValues, &mSortedSpheres, &mSpheres.rects, &mSpheres.sums, &mSpheres.offsets,
           &mBoxes.rects, &mBoxes.sums, &mBoxes.offsets})
@@ -146,16 +207,7 @@ void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
         }
         commands.computeTransferBarrier();
         if (mSpheres.count > 0) recordSort(commands, inputs, resources.buffer(inputs.spheres));
-        if (mBoxes.count > 0) {
-            commands.bindCompute(mBoxRects);
-            bindFrame(commands, inputs);
-            commands.bind(shader::kBindingBoxes, *inputs.boxes);
-            commands.bind(shader::kBindingVolumes, *inputs.volumes);
-            commands.pushConstants(
-                shader::BinPush{.rects = mBoxes.rects.deviceAddress(), .count = mBoxes.count});
-            commands.dispatch((mBoxes.count + 63) / 64);
-            commands.computeBarrier();
-        }
+        if (mBoxes.count > 0) recordBoxes(commands, inputs);
         recordCount(commands, inputs, mSpheres);
         recordCount(commands, inputs, mBoxes);
     });
@@ -196,6 +248,8 @@ void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs)
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources&) {
         for (const Set* set : {&mSpheres, &mBoxes})
             if (set->count > 0) recordBin(commands, inputs, *set, mBinScatter);
+        for (const Set* set : {&mSpheres, &mBoxes})
+            if (mSortLists && set->count > 0) recordSortLists(commands, inputs, *set);
     });
 }
 
@@ -203,11 +257,14 @@ void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pas
     for (const gpu::Buffer* buffer :
          {&mSortedSpheres, &mSpheres.offsets, &mSpheres.pairs, &mBoxes.offsets, &mBoxes.pairs})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
+    if (mBoxSort) pass.reads(frame.importBuffer(mSortedBoxes), Access::ComputeRead);
 }
 
 std::uint64_t MediaBins::bytes() const {
     std::uint64_t sum = mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes();
     if (mSort) sum += mSort->bytes();
+    if (mBoxSort)
+        sum += mBoxSort->bytes() + mBoxKeyValues.bytes() + mBoxValues.bytes() + mSortedBoxes.bytes();
     for (const Set* set : {&mSpheres, &mBoxes})
         for (const gpu::Buffer* buffer :
              {&set->rects, &set->offsets, &set->cursors, &set->sums, &set->pairs})

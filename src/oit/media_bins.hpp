@@ -11,12 +11,17 @@
 
 namespace brume::oit {
 
+/// How many screen tiles cover an image.
+std::uint32_t countTiles(VkExtent2D extent);
+
 /// Count, scan, scatter: the memory for the tiles' lists is known before any of it is written.
-/// Lists are nearly, not exactly, in the order of distance (spheres; boxes in any order).
+/// If the lists are sorted, media stand in the order of their smallest possible distances; else
+/// spheres nearly so, and boxes in any order.
 class MediaBins {
   public:
     /// `name` of the passes' prefix, e.g. "oit.linked_list".
-    MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs);
+    MediaBins(gpu::Device& device, const std::string& name, const Inputs& inputs,
+              bool areListsSorted = false);
 
     /// Pass "<name>.bin": sorts, and counts how many media touch each tile.
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
@@ -29,7 +34,11 @@ class MediaBins {
     /// Must be declared as read by passes that use the addresses below.
     void declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const;
 
+    /// What the lists' indices mean.
     const gpu::Buffer& sortedSpheres() const { return mSortedSpheres; }
+    const gpu::Buffer& listedBoxes(const Inputs& inputs) const {
+        return mBoxSort ? mSortedBoxes : *inputs.boxes;
+    }
     struct List {
         VkDeviceAddress offsets = 0;  ///< uint[tiles + 1]
         VkDeviceAddress pairs = 0;    ///< uint[], indices into the sorted spheres or the boxes
@@ -55,6 +64,8 @@ class MediaBins {
     void recordSort(gpu::Commands& commands, const Inputs& inputs,
                     const gpu::Buffer& spheres) const;
     void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
+    void recordBoxes(gpu::Commands& commands, const Inputs& inputs) const;
+    void recordSortLists(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
     void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                    const gpu::ComputePipeline& pipeline) const;
 
@@ -62,9 +73,10 @@ class MediaBins {
     std::string mName;
     std::uint32_t mTileCount;
     gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mBinCount, mBinScatter;
+    gpu::ComputePipeline mBoxKeys, mSortLists;
     gpu::PrefixSum mPrefixSum;
-    std::optional<gpu::RadixSort> mSort;
-    gpu::Buffer mKeys, mValues, mSortedSpheres;
+    std::optional<gpu::RadixSort> mSort, mBoxSort;
+    gpu::Buffer mKeys, mValues, mSortedSpheres, mBoxKeyValues, mBoxValues, mSortedBoxes;
     Set mSpheres, mBoxes;
 };
 

@@ -3,6 +3,8 @@
 // line's list, the benchmark's columns and the README's table.
 #pragma once
 
+#include <scene/settings.hpp>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,12 +18,7 @@ enum class Exactness {
     Approximate  ///< differs by an amount that only measurement tells
 };
 
-struct SettingInfo {
-    std::string_view name;
-    std::string_view values;  ///< range or choices, with unit
-    std::string_view defaultValue;
-    std::string_view meaning;
-};
+using scene::SettingInfo;
 
 struct MethodInfo {
     std::string_view name;     ///< snake_case, as in --method

@@ -77,7 +77,9 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     push.axisX = vec3(dvec3(m[0]));
     push.axisY = vec3(dvec3(m[1]));
     push.axisZ = vec3(dvec3(m[2]));
-    push.origin = vec3(dvec3(m[3]) - appearance.cameraPosition);
+    const dvec3 origin = dvec3(m[3]) - appearance.cameraPosition;
+    push.origin = vec3(origin);
+    push.originLo = vec3(origin - dvec3(push.origin));
     push.radiusScale = static_cast<float>(lengthScale(m));
     push.firstSphere = appearance.firstSphere;
     push.lastTick = static_cast<std::uint32_t>(mTick - 1);

@@ -40,6 +40,10 @@ gpu::Buffer makeUniforms(gpu::Submitter& submitter, const std::string& name,
     return makeArray(submitter, name, std::move(bytes));
 }
 
+/// What rounding to float takes from a value.
+float roundingOf(double value) { return static_cast<float>(value - static_cast<float>(value)); }
+vec3 roundingOf(const dvec3& value) { return vec3(value - dvec3(vec3(value))); }
+
 shader::LightData makeLight(const scene::Light& light, const dvec3& origin) {
     shader::LightData data{};
     data.color = vec3(light.color);
@@ -77,11 +81,15 @@ shader::MaterialData makeMaterial(const scene::Material& material) {
     data.reflected = vec3(material.reflected);
     data.extinction = vec3(material.absorption + material.scattering);
     data.scattering = vec3(material.scattering);
+    data.collimation = static_cast<float>(material.collimation);
+    data.ior = static_cast<float>(material.ior);
     return data;
 }
 
 shader::SphereData makeSphere(const scene::MediumSphere& sphere, const dvec3& origin) {
-    return {.center = vec3(sphere.center - origin),
+    const dvec3 center = sphere.center - origin;
+    return {.center = vec3(center),
+            .centerLo = roundingOf(center),
             .radius = sphere.radius,
             .tint = sphere.tint,
             .density = sphere.density,
@@ -91,10 +99,10 @@ shader::SphereData makeSphere(const scene::MediumSphere& sphere, const dvec3& or
                                                                 : shader::kProfileConstant};
 }
 
-glm::mat4x3 relativeFrom(const dmat4& worldFromObject, const dvec3& origin) {
+dmat4 relativeFrom(const dmat4& worldFromObject, const dvec3& origin) {
     dmat4 m = worldFromObject;
     m[3] -= dvec4(origin, 0);
-    return glm::mat4x3(vec3(m[0]), vec3(m[1]), vec3(m[2]), vec3(m[3]));
+    return m;
 }
 
 Box3 findBounds(const PreparedScene& prepared) {
@@ -158,8 +166,10 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
         if (light.type == scene::LightType::Ambient)
             ambient += light.color;
         else
-            lights.push_back(makeLight(light, mCamera.position));
+            mSceneLights.push_back(light);
     }
+    for (const scene::Light& light : mSceneLights)
+        lights.push_back(makeLight(light, mCamera.position));
     std::vector<shader::MediumData> media;
     for (const scene::Medium& medium : scene.media) media.push_back(makeMedium(medium));
 
@@ -178,10 +188,15 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
     const auto w = static_cast<std::uint32_t>(mCamera.width);
     const auto h = static_cast<std::uint32_t>(mCamera.height);
     const shader::FrameData data{.right = vec3(mCamera.right),
+                                 .rightLo = roundingOf(mCamera.right),
                                  .extentX = static_cast<float>(mCamera.extentX),
+                                 .extentXLo = roundingOf(mCamera.extentX),
                                  .up = vec3(mCamera.up),
+                                 .upLo = roundingOf(mCamera.up),
                                  .extentY = static_cast<float>(mCamera.extentY),
+                                 .extentYLo = roundingOf(mCamera.extentY),
                                  .forward = vec3(mCamera.forward),
+                                 .forwardLo = roundingOf(mCamera.forward),
                                  .near = static_cast<float>(mCamera.near),
                                  .ambient = vec3(ambient),
                                  .orthographic = mCamera.type == scene::CameraType::Orthographic,
@@ -200,6 +215,17 @@ void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepa
     mFrame = makeArray(submitter, "render.frame", std::vector{data});
     mLights = makeArray(submitter, "render.lights", std::move(lights));
     mMedia = makeArray(submitter, "render.media", std::move(media));
+}
+
+void GpuScene::setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceAddress>& maps) {
+    std::vector<shader::LightData> lights;
+    for (std::size_t i = 0; i < mSceneLights.size(); ++i) {
+        lights.push_back(makeLight(mSceneLights[i], mCamera.position));
+        lights.back().shadow = maps[i];
+    }
+    if (lights.empty()) return;
+    submitter.submitAndWait(
+        "upload lights", [&](gpu::Commands& commands) { gpu::upload(commands, mLights, lights); });
 }
 
 void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& prepared) {
@@ -242,6 +268,7 @@ void GpuScene::uploadVolumes(gpu::Submitter& submitter, const PreparedScene& pre
                              std::uint64_t offset, float value) {
             const dvec3 corner = transformPoint(grid.worldFromIndex, lo) - mCamera.position;
             boxes.push_back({.corner = vec3(corner),
+                             .cornerLo = roundingOf(corner),
                              .volume = index,
                              .size = vec3(size),
                              .kind = kind,
@@ -292,8 +319,10 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
         materials.push_back(makeMaterial(material));
     for (const scene::Mesh& mesh : prepared.scene.meshes) {
         const dmat3 linear(mesh.worldFromObject);
+        const dmat4 relative = relativeFrom(mesh.worldFromObject, mCamera.position);
         meshes.push_back(
-            {.relativeFromObject = relativeFrom(mesh.worldFromObject, mCamera.position),
+            {.relativeFromObject = glm::mat4x3(relative),
+             .relativeFromObjectLo = glm::mat4x3(relative - dmat4(glm::mat4(relative))),
              .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
              .firstVertex = static_cast<std::uint32_t>(vertices.size()),
              .firstIndex = static_cast<std::uint32_t>(indices.size())});
@@ -306,6 +335,7 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
             .mesh = static_cast<std::uint32_t>(meshes.size() - 1),
             .material = mesh.material,
             .vertexCount = static_cast<std::uint32_t>(mesh.indices.size()),
+            .isSolid = material.type == scene::MaterialType::Solid,
             .colorTexture = uploadTexture(submitter, material.colorTexture.get()),
             .emissionTexture = uploadTexture(submitter, material.emissionTexture.get())};
         (material.type == scene::MaterialType::Opaque ? mOpaque : mTransparent).push_back(draw);

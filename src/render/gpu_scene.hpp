@@ -23,6 +23,12 @@ class GpuScene {
     /// change.
     void shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed);
 
+    /// Gives each light the address of its ShadowMap; parallel to lights().
+    void setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceAddress>& maps);
+
+    /// Without the ambient ones: in the order of the shaders' array.
+    const std::vector<scene::Light>& lights() const { return mSceneLights; }
+
     const scene::CameraFrame& camera() const {
         return mCamera;
     }  ///< of the samples; may stand in front of the scene's (orthographic)
@@ -47,6 +53,7 @@ class GpuScene {
     const gpu::Image* uploadTexture(gpu::Submitter& submitter, const scene::Texture* texture);
 
     scene::CameraFrame mCamera;
+    std::vector<scene::Light> mSceneLights;
     oit::Needs mNeeds;
     double mFar = 1e6;
     gpu::Buffer mFrame, mLights, mMedia, mSpheres, mBoxes, mVolumes, mBrickValues;

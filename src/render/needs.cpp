@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/needs.hpp>
+#include <shadows/store_info.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace brume::render {
 namespace {
 
 bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
 
+void addThinNeeds(const scene::Material& material, oit::Needs& needs) {
+    const bool transmits = material.transmission != dvec3(0);
+    if (!isGrey(material.transmission) || (transmits && material.colorTexture))
+        needs.colouredSurfaces = true;
+    if (material.collimation < 1) needs.diffusion = true;
+}
+
 void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
     for (const scene::Mesh& mesh : scene.meshes) {
         const scene::Material& material = scene.materials[mesh.material];
         if (material.type == scene::MaterialType::Opaque) continue;
         needs.surfaces = true;
+        if (material.type == scene::MaterialType::Solid) needs.solids = true;
+        if (material.type == scene::MaterialType::Thin) addThinNeeds(material, needs);
         if (material.type == scene::MaterialType::Solid &&
             !isGrey(material.absorption + material.scattering))
             needs.colouredExtinction = true;
@@ -35,6 +47,34 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
+/// Whether one medium and one tint are all there is.
+bool hasOneMedium(const PreparedScene& prepared) {
+    if (!prepared.scene.effects.empty()) return false;
+    std::set<std::uint32_t> media;
+    std::set<std::array<float, 3>> tints;
+    for (const scene::MediumSphere& sphere : prepared.spheres) {
+        media.insert(sphere.medium);
+        tints.insert({sphere.tint.x, sphere.tint.y, sphere.tint.z});
+    }
+    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
+        if (prepared.volumes[i].isEmpty()) continue;
+        media.insert(prepared.scene.volumes[i].medium);
+        tints.insert({1, 1, 1});
+    }
+    return media.size() == 1 && tints.size() == 1;
+}
+
+float findLargestTint(const PreparedScene& prepared) {
+    float largest = 1;
+    const auto extend = [&](const vec3& tint) {
+        largest = std::max({largest, tint.x, tint.y, tint.z});
+    };
+    for (const scene::MediumSphere& sphere : prepared.spheres) extend(sphere.tint);
+    for (const scene::EffectInstance& effect : prepared.scene.effects)
+        for (const auto& [age, tint] : effect.effect.tint.keys) extend(vec3(tint));
+    return largest;
+}
+
 }  // namespace
 
 oit::Needs findNeeds(const PreparedScene& prepared) {
@@ -53,8 +93,14 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
-        if (light.type != scene::LightType::Directional) needs.varyingLight = true;
+        needs.shadowStores |= shadows::storeBits(light.shadow);
+        if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
+            needs.varyingLight = true;
     }
+    needs.oneMedium = hasOneMedium(prepared);
+    needs.oneSource = needs.oneMedium && !needs.varyingLight;
+    needs.largestTint = findLargestTint(prepared);
+    needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
 
@@ -65,12 +111,19 @@ std::string describe(const oit::Needs& needs) {
     return "needs\n" + line("spheres", needs.spheres, "soft spheres of particles or the scene") +
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
+           line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
-           line("varyingLight", needs.varyingLight, "point or spot lights on media") +
+           line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
+           line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
+           line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
+           line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
+           line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
-                       needs.lights);
+                       needs.lights) +
+           line("shadows", needs.shadowStores != 0, "maps of what the lights see");
 }
 
 }  // namespace brume::render

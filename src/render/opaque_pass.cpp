@@ -30,7 +30,7 @@ void drawMeshes(gpu::Commands& commands, const oit::Inputs& inputs,
 
 }  // namespace
 
-OpaquePass::OpaquePass(gpu::Device& device)
+OpaquePass::OpaquePass(gpu::Device& device, const oit::Needs& needs)
     : mBackground(device,
                   {.name = "render.background",
                    .vertexSpirv = spv::common_screen_vert,
@@ -42,6 +42,7 @@ OpaquePass::OpaquePass(gpu::Device& device)
                        .vertexSpirv = spv::common_mesh_vert,
                        .fragmentSpirv = spv::render_opaque_frag,
                        .bindings = oit::join(oit::frameBindings(), oit::meshBindings()),
+                       .constants = oit::lightingConstants(needs),
                        .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}},
                        .depthFormat = kDepthFormat,
                        .depthTest = true,

@@ -9,7 +9,7 @@ namespace brume::render {
 
 class OpaquePass {
   public:
-    explicit OpaquePass(gpu::Device& device);
+    OpaquePass(gpu::Device& device, const oit::Needs& needs);
 
     /// Passes "render.background" and "render.opaque"; sets inputs.opaqueT and inputs.opaqueColor.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, oit::Inputs& inputs) const;

@@ -8,10 +8,14 @@
 #include <render/needs.hpp>
 #include <render/opaque_pass.hpp>
 #include <render/renderer.hpp>
+#include <render/shadow_casters.hpp>
+#include <render/shadow_probe.hpp>
+#include <shadows/shadows.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace brume::render {
 namespace {
@@ -26,16 +30,17 @@ std::uint64_t takeShuffle(scene::Settings& settings) {
     return static_cast<std::uint64_t>(reader.integer("shuffle", 0, 0, 1ll << 62));
 }
 
-/// No shadow store exists yet: lights that ask for one shine through everything.
-void warnOfMissingShadows(const scene::Scene& scene, const Log& log) {
-    for (const scene::Light& light : scene.lights)
-        if (light.type != scene::LightType::Ambient && light.shadow != "none") {
-            log.warning(
-                fmt::format("rendering: shadow store \"{}\" is not available, lights cast "
-                            "no shadows on the device (--shadow none tells the reference)",
-                            light.shadow));
-            return;
-        }
+/// Settings "shadow.<name>" go to the shadow maps of all lights, as "<name>".
+scene::Settings takeShadowSettings(scene::Settings& settings) {
+    const std::string prefix = "shadow.";
+    scene::Settings taken;
+    std::erase_if(settings, [&](const auto& setting) {
+        const auto& [key, value] = setting;
+        const bool isOurs = key.starts_with(prefix);
+        if (isOurs) taken[key.substr(prefix.size())] = value;
+        return isOurs;
+    });
+    return taken;
 }
 
 }  // namespace
@@ -48,18 +53,19 @@ struct Renderer::Impl {
           options(options_),
           log(log_),
           shuffle(takeShuffle(options.settings)),
+          shadowSettings(takeShadowSettings(options.settings)),
           submitter(device),
           pool(device),
           timers(device),
           scene(submitter, prepared),
           effects(submitter, prepared),
-          opaque(device) {
-        warnOfMissingShadows(prepared.scene, log);
+          opaque(device, scene.makeInputs().needs) {
         if (shuffle != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
             scene.shuffleSpheres(submitter, shuffle);
             areSpheresFinal = true;
         }
+        prepareShadows();
         method = oit::createMethod(options.method, device, scene.makeInputs(), options.settings);
         const std::uint64_t pixels = std::uint64_t{scene.extent().width} * scene.extent().height;
         image = gpu::Buffer(device, {.name = "render.image_read",
@@ -75,11 +81,28 @@ struct Renderer::Impl {
             [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
+    void prepareShadows() {
+        if (scene.makeInputs().needs.shadowStores == 0) return;
+        casters.emplace(submitter, prepared, scene, effects.readSpheres(submitter));
+        shadows.emplace(submitter, casters->casters(), scene.lights(), shadowSettings);
+        shadows->prepare(submitter, [this](const shadows::Shadows::DeclareFunction& declare) {
+            frame::FrameBuilder frame(pool);
+            const frame::BufferRef spheres = frame.importBuffer(scene.spheres());
+            if (!areSpheresFinal) effects.declare(frame, scene, spheres);
+            declare(frame, spheres);
+            submitter.submitAndWait("measure shadows",
+                                    [&](gpu::Commands& commands) { frame.execute(commands); });
+        });
+        scene.setShadows(submitter, shadows->addresses());
+        areShadowsReady = true;
+    }
+
     /// What every frame begins with: particles, background, opaque meshes, and room for the result.
     oit::Inputs declareInputs(frame::FrameBuilder& frame) {
         oit::Inputs inputs = scene.makeInputs();
         inputs.spheres = frame.importBuffer(scene.spheres());
         if (!areSpheresFinal) effects.declare(frame, scene, inputs.spheres);
+        if (areShadowsReady) shadows->declare(frame, inputs.spheres);
         opaque.declare(frame, scene, inputs);
         inputs.result = frame.createImage({.name = "render.result",
                                            .format = VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -134,6 +157,10 @@ struct Renderer::Impl {
         kinds["scene"] = scene.bytes();
         kinds["targets"] = pool.bytes();
         kinds["particles"] = effects.bytes();
+        if (shadows) {
+            for (const auto& [kind, count] : shadows->bytes()) kinds[kind] = count;
+            kinds["shadowCasters"] = casters->bytes();
+        }
         std::uint64_t total = 0;
         for (const auto& [kind, count] : kinds) total += count;
         kinds["total"] = total;
@@ -146,12 +173,16 @@ struct Renderer::Impl {
     Options options;
     Log log;
     std::uint64_t shuffle;
+    scene::Settings shadowSettings;
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
     GpuScene scene;
     EffectParticles effects;
     OpaquePass opaque;
+    std::optional<ShadowCasters> casters;
+    std::optional<shadows::Shadows> shadows;
+    bool areShadowsReady = false;
     bool areSpheresFinal = false;  // no effect writes them any more
     std::unique_ptr<oit::OitMethod> method;
     gpu::Buffer image, triangles, trianglesRead;
@@ -187,6 +218,7 @@ Result Renderer::renderFrame() {
             result.timeMs += pass.timeMs;
     result.bytes = mImpl->bytes();
     result.counters = mImpl->method->counters();
+    result.errorBound = mImpl->method->errorBound();
     if (result.counters["exhausted"] > 0)
         mImpl->log.warning(
             fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "
@@ -197,6 +229,33 @@ Result Renderer::renderFrame() {
 
 std::vector<scene::MediumSphere> Renderer::readParticles() const {
     return mImpl->effects.readSpheres(mImpl->submitter);
+}
+
+ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {
+    std::vector<vec3> relative;
+    for (const dvec3& position : positions)
+        relative.push_back(vec3(position - mImpl->scene.camera().position));
+    const ShadowProbe probe(mImpl->submitter, mImpl->scene.makeInputs().needs, light, relative);
+    frame::FrameBuilder frame(mImpl->pool);
+    probe.declare(frame, mImpl->declareInputs(frame));
+    mImpl->submitter.submitAndWait("probe", [&](gpu::Commands& commands) {
+        mImpl->timers.reset(commands);
+        frame.execute(commands, &mImpl->timers);
+    });
+    ShadowSamples samples{.values = probe.read()};
+    for (const gpu::ScopeTime& scope : mImpl->timers.read()) {
+        if (scope.name == "shadow.probe")
+            samples.sampleMs += scope.timeMs;
+        else if (scope.name.starts_with("shadow.") && scope.name != "shadow.probe_read")
+            samples.buildMs += scope.timeMs;
+    }
+    if (!mImpl->shadows) return samples;
+    const shadows::Footprint footprint = mImpl->shadows->footprint(light);
+    samples.bytesPerTexel = footprint.bytesPerTexel;
+    samples.footprint = footprint.reach;
+    samples.right = footprint.right;
+    samples.up = footprint.up;
+    return samples;
 }
 
 std::string Renderer::explain() const {

@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,9 +33,9 @@ struct PreparedScene {
 };
 
 struct Options {
-    std::string method = "linked_list";
-    std::string shadow;  ///< overrides the lights' own; empty: as in the scene
-    scene::Settings settings;
+    std::string method = "tile";
+    scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
+                               ///< "shuffle"
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
 };
 
@@ -50,6 +52,18 @@ struct Result {
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
     std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
+    std::optional<double> errorBound;  ///< the method's, see OitMethod::errorBound()
+};
+
+struct ShadowSamples {
+    std::vector<vec3> values;      ///< in [0, 1]
+    double buildMs = 0;            ///< all passes that build maps, on the device
+    double sampleMs = 0;           ///< asking at all positions
+    double bytesPerTexel = 0;      ///< of the light's own map
+    /// The value at a point is an average under a tent this wide to either side of it, along two
+    /// directions across the light; 0 where the map has no texels. Directional lights only.
+    double footprint = 0;
+    dvec3 right{0}, up{0};
 };
 
 /// One scene on one device. Not thread-safe. Owns all its GPU objects; the device must outlive it.
@@ -68,6 +82,10 @@ class Renderer {
 
     /// Particles as simulated on the device, read back: for the reference.
     std::vector<scene::MediumSphere> readParticles() const;
+
+    /// Builds the shadow maps and asks them at world positions: the share of a light (counted
+    /// without the ambient ones) that arrives there, per channel.
+    ShadowSamples probeShadows(std::uint32_t light, std::span<const dvec3> positions) const;
 
     /// Needs, passes, targets and bytes per pixel, as text for --explain.
     std::string explain() const;

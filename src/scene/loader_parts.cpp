@@ -24,8 +24,19 @@ dvec3 readScale(const JsonNode& node) {
     return scale;
 }
 
+Settings readSettings(const JsonNode& node) {
+    Settings settings;
+    for (const auto& [key, value] : node.members())
+        settings[key] = value.json().is_string() ? value.text()
+                               : value.json().is_number_float()
+                                   ? fmt::format("{}", value.number())
+                                   : value.json().dump();
+    return settings;
+}
+
 void readTextFields(const JsonNode& node, Light& light) {
     node.read("shadow", light.shadow);
+    if (node.has("shadowSettings")) light.shadowSettings = readSettings(node["shadowSettings"]);
     if (node.has("direction")) light.direction = node["direction"].unitVec3();
 }
 
@@ -117,12 +128,7 @@ Medium readMedium(const JsonNode& node) {
 RenderSettings readRenderSettings(const JsonNode& node) {
     RenderSettings render;
     node.read("method", render.method);
-    if (node.has("settings"))
-        for (const auto& [key, value] : node["settings"].members())
-            render.settings[key] = value.json().is_string() ? value.text()
-                                   : value.json().is_number_float()
-                                       ? fmt::format("{}", value.number())
-                                       : value.json().dump();
+    if (node.has("settings")) render.settings = readSettings(node["settings"]);
     return render;
 }
 

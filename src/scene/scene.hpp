@@ -67,6 +67,7 @@ struct Light {
     double outerAngle = radians(30);
     double radius = 0.01;
     std::string shadow = "none";  ///< name of a shadow store, or "none"
+    Settings shadowSettings;      ///< of the store and its map
 };
 
 enum class MaterialType { Opaque, Thin, Solid };
@@ -158,7 +159,7 @@ struct EffectInstance {
 };
 
 struct RenderSettings {
-    std::string method = "linked_list";
+    std::string method = "tile";
     Settings settings;
 };
 

@@ -4,12 +4,21 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace brume::scene {
 
 /// key -> value as text ("512", "true", "stratified").
 using Settings = std::map<std::string, std::string>;
+
+/// What a technique says about one of its settings.
+struct SettingInfo {
+    std::string_view name;
+    std::string_view values;  ///< range or choices, with unit
+    std::string_view defaultValue;
+    std::string_view meaning;
+};
 
 /// Reads settings one by one and then complains about what nobody asked for, so that each
 /// technique lists its own keys once. Throws an input Error for values that do not parse or lie

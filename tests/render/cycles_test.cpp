@@ -18,7 +18,7 @@ struct CyclesImage {
 };
 
 constexpr CyclesImage kSmoke1{
-    "reference/smoke1_absorption.exr", "vdb/openvdb_smoke1.vdb", 0.3, -7.381, 40.476, 120, 16};
+    "reference/smoke1_absorption.exr", "vdb/openvdb_smoke1.vdb", 0.3, -7.381, 40.476, 120, 8};
 constexpr CyclesImage kFire16{"reference/fire16_0030_absorption.exr",
                               "blender/fire16/fluid_data_0030.vdb",
                               4,

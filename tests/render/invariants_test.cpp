@@ -193,19 +193,19 @@ class Determinism : public RenderTest {};
 
 TEST_F(Determinism, TwentyRenders_GiveTheSameBits) {
     const TestScene s = makeEverything();
-    render::Renderer renderer(device(), s, {}, log());
+    render::Renderer renderer(device(), s, {.method = "linked_list"}, log());
     const std::uint64_t hash = computeHash(renderer.renderFrame().image);
     for (int i = 0; i < 18; ++i) EXPECT_EQ(computeHash(renderer.renderFrame().image), hash);
     EXPECT_EQ(hashOf(s), hash);
 }
 
 TEST_F(Determinism, Bands_GiveTheSameBits) {
-    // Lists of more than 3 MiB: some 250 intervals on 2 304 pixels.
-    TestScene s(48, 48);
+    // Lists of more than 3 MiB: some 45 intervals on each of 9 216 pixels.
+    TestScene s(96, 96);
     Random random(12);
-    for (int m = 0; m < 3; ++m) s.addMedium(0.01 * random.vector(), dvec3(0.8));
-    for (int i = 0; i < 250; ++i)
-        s.addSphere(static_cast<std::uint32_t>(i % 3), 0.5 * random.vector(-1, 1), 3,
+    for (int m = 0; m < 3; ++m) s.addMedium(0.1 * random.vector(), dvec3(0.8));
+    for (int i = 0; i < 300; ++i)
+        s.addSphere(static_cast<std::uint32_t>(i % 3), 2.0 * random.vector(-1, 1), 0.8,
                     Profile::Constant);
     s.addPane(s.addMaterial(makeThin(0.5, dvec3(0.3, 0.6, 0.9))), 0, 2);
     s.addDaylight();
@@ -214,7 +214,7 @@ TEST_F(Determinism, Bands_GiveTheSameBits) {
     for (const bool isSmooth : {false, true}) {
         if (isSmooth) s.spheres[0].profile = Profile::Smooth;
         const render::Result plain = render(s);
-        const render::Result bands = render(s, {.settings = {{"budgetMiB", "1"}}});
+        const render::Result bands = render(s, {.method = "linked_list", .settings = {{"budgetMiB", "1"}}});
         EXPECT_GT(bands.counters.at("bands"), 3u);
         for (const char* key : {"stored", "surfaces", "longestList"})
             EXPECT_EQ(bands.counters.at(key), plain.counters.at(key)) << key;
@@ -230,21 +230,23 @@ TEST_F(Determinism, BudgetBelowOneTile_IsAnInputError) {
     const std::uint32_t medium = s.addMedium(1e-3);
     for (int i = 0; i < 2500; ++i) s.addSphere(medium, dvec3(0, 0, 1e-3 * i), 5);
     try {
-        render(s, {.settings = {{"budgetMiB", "1"}}});
+        render(s, {.method = "linked_list", .settings = {{"budgetMiB", "1"}}});
         FAIL() << "2 500 intervals of 8 bytes on 64 pixels are more than 1 MiB";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Input);
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
-    EXPECT_EQ(render(s, {.settings = {{"budgetMiB", "2"}}}).counters.at("dropped"), 0u);
+    EXPECT_EQ(render(s, {.method = "linked_list", .settings = {{"budgetMiB", "2"}}}).counters.at("dropped"), 0u);
 }
 
 TEST_F(Determinism, MediaOnOneTileByTheThousands_AreAllStored) {
     // More than a device's limit of loop iterations per invocation could visit naively.
     TestScene s(8, 8);
+    s.scene.camera.position.z = -8;
     const std::uint32_t medium = s.addMedium(dvec3(2e-5, 1e-5, 3e-5), dvec3(0.5));
     Random random(3);
-    for (int i = 0; i < 12000; ++i) s.addSphere(medium, random.vector(-1, 1), 4);
+    for (int i = 0; i < 12000; ++i)
+        s.addSphere(medium, random.vector(-1, 1) * dvec3(0.01, 0.01, 1), 4);
     s.addDaylight();
     const render::Result result = render(s);
     EXPECT_EQ(result.counters.at("stored"), 12000u * 64);

@@ -134,11 +134,13 @@ render::Result RenderTest::render(const render::PreparedScene& scene, render::Op
 
 std::uint64_t RenderTest::hashOf(const render::PreparedScene& scene,
                                  const scene::Settings& settings) {
-    return computeHash(render(scene, {.settings = settings}).image);
+    return computeHash(render(scene, {.method = "linked_list", .settings = settings}).image);
 }
 
 Difference RenderTest::measure(const render::PreparedScene& scene) {
-    const render::Result actual = render(scene, {.triangleHashes = true});
+    render::Options options = mMethod;
+    options.triangleHashes = true;
+    const render::Result actual = render(scene, options);
     const reference::Result expected =
         reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = false});
     EXPECT_EQ(actual.counters.at("dropped"), 0u);

@@ -77,16 +77,19 @@ struct Difference {
 
 class RenderTest : public GpuTest {
   protected:
-    render::Result render(const render::PreparedScene& scene, render::Options options = {});
+    render::Result render(const render::PreparedScene& scene,
+                          render::Options options = {.method = "linked_list"});
     std::uint64_t hashOf(const render::PreparedScene& scene, const scene::Settings& settings = {});
 
-    /// Renders with linked_list and the reference. Checks that nothing was lost.
+    /// Renders with mMethod and the reference. Checks that nothing was lost.
     Difference measure(const render::PreparedScene& scene);
 
     /// measure(), and: finite, at most `maxError`; different triangles in at most `excludedShare`
     /// of the pixels. Prints the figures as a record of the test.
     void expectExact(const render::PreparedScene& scene, const std::string& name,
                      double maxError = 1e-5, double excludedShare = 0);
+
+    render::Options mMethod{.method = "linked_list"};  ///< what measure() and expectExact() test
 };
 
 }  // namespace brume::test

@@ -3,7 +3,7 @@
 // and source with an integer count, reset in free space.
 #ifndef BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
 #define BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
-#include "path.glsl"
+#include "surfaces.glsl"
 
 // What a medium of density 1 does to a ray: its extinction and its source do not vary along it.
 struct RayMedium {
@@ -13,7 +13,7 @@ struct RayMedium {
 
 RayMedium makeRayMedium(uint index) {
     MediumData medium = media[index];
-    vec3 light = scatteredRadiance(medium, vec3(0), ray.direction);
+    vec3 light = scatteredRadiance(medium, vec3(0), rayDirection);
     return RayMedium(medium.extinction,
                      medium.extinction * medium.albedo * light + medium.emission);
 }
@@ -34,32 +34,23 @@ RayMedium findRayMedium(uint index) {
     return medium;
 }
 
-// Extinction, source and end of the interval that an entry stands for.
-void loadInterval(uvec2 entry, out vec3 extinction, out vec3 source, out float end) {
+// Extinction and source of the interval that an entry stands for.
+RayMedium loadRayMedium(uvec2 entry) {
     uint index = entry.y & kIndexMask;
     uint mediumIndex;
     float density;
     vec3 tint = vec3(1);
-    vec2 t;
     if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
-        BoxData box = boxes[index];
-        VolumeData volume = volumes[box.volume];
-        intersectBox(volume.indexFromWorld * (ray.origin - box.corner),
-                     volume.indexFromWorld * ray.direction, box.size, t);
-        mediumIndex = volume.medium;
-        density = box.value;
+        mediumIndex = volumes[boxes[index].volume].medium;
+        density = boxes[index].value;
     } else {
-        SphereData sphere = spheres[index];
-        intersectSphere(ray.origin, ray.direction, sphere.center, sphere.radius, t);
-        mediumIndex = sphere.medium;
-        density = sphere.density;
-        tint = sphere.tint;
+        mediumIndex = spheres[index].medium;
+        density = spheres[index].density;
+        tint = spheres[index].tint;
     }
-    end = t.y;
     iterations += kFewMedia ? 0u : frame.lightCount;
     RayMedium medium = findRayMedium(mediumIndex);
-    extinction = medium.extinction * density;
-    source = tint * density * medium.source;
+    return RayMedium(medium.extinction * density, tint * density * medium.source);
 }
 
 // The open intervals' ends, sorted, live in list[state.open .. state.medium): the entries there are
@@ -76,57 +67,57 @@ void insertEnd(uvec2 end) {
     storeEntry(slot, end);
 }
 
-void enterMedium(uvec2 entry) {
-    vec3 extinction, source;
-    float end;
-    loadInterval(entry, extinction, source, end);
-    addToSums(state.media, 1.0, extinction, source);
-    insertEnd(uvec2(distanceKey(end), entry.y));
+void enterMedium(uvec2 entry, Real end) {
+    RayMedium medium = loadRayMedium(entry);
+    addToSums(state.media, 1.0, medium.extinction, medium.source);
+    insertEnd(uvec2(distanceKey(float(end)), entry.y));
     ++state.medium;
 }
 
 void leaveMedium(uvec2 entry) {
-    vec3 extinction, source;
-    float end;
-    loadInterval(entry, extinction, source, end);
-    addToSums(state.media, -1.0, extinction, source);
+    RayMedium medium = loadRayMedium(entry);
+    addToSums(state.media, -1.0, medium.extinction, medium.source);
     ++state.open;
 }
 
-void crossTo(float event, vec3 solidLight) {
+void crossTo(Real event, vec3 solidLight) {
     vec3 extinction = state.media.extinctionHi + state.media.extinctionLo;
     vec3 source = state.media.sourceHi + state.media.sourceLo;
     if (kSurfaces) {
         extinction += state.solids.extinctionHi + state.solids.extinctionLo;
         source += (state.solids.sourceHi + state.solids.sourceLo) * solidLight;
     }
-    crossConstant(state.path, extinction, source, max(event - state.position, 0.0));
-    state.position = max(state.position, event);
+    crossConstant(state.path, extinction, source, max(float(event - position), 0.0));
+    position = max(position, event);
 }
 
 // From where the state says to the end of the ray, or of the round.
-void walkConstant(float limit) {
+void walkConstant(Real limit) {
     keepMedia();
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
-    vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, vec3(0), ray.direction) : vec3(0);
+    vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, vec3(0), rayDirection) : vec3(0);
     uvec2 enter = mediumEntry(), surface = surfaceEntry();
     uvec2 leave = state.open < state.medium ? loadEntry(state.open) : kNoEntry;
     while (iterations <= kIterationsPerRound) {
         ++iterations;
-        float event = min(uintBitsToFloat(min(min(enter.x, leave.x), surface.x)), limit);
+        // The lists are in order of rounded distances; which head is next is decided finely.
+        Real2 entering = enter.x == kNoEntry.x ? Real2(kFar) : intersectMedium(enter);
+        Real leaving = leave.x == kNoEntry.x ? Real(kFar) : intersectMedium(leave).y;
+        Real cross = kSurfaces ? surfaceDistance(surface) : Real(kFar);
+        Real event = min(min(entering.x, leaving), min(cross, limit));
         crossTo(event, solidLight);
         if (event >= limit || isOpaque(state.path)) {
             state.stage = kStageDone;
             break;
         }
-        if (kSurfaces && surface.x < min(enter.x, leave.x)) {
+        if (kSurfaces && cross < min(entering.x, leaving)) {
             crossSurface(state.path, state.solids, loadRecord(surface));
             ++state.surface;
             surface = surfaceEntry();
             continue;
         }
-        if (enter.x <= leave.x) {
-            enterMedium(enter);
+        if (entering.x <= leaving) {
+            enterMedium(enter, entering.y);
             enter = mediumEntry();
         } else {
             leaveMedium(leave);

@@ -32,7 +32,7 @@ void main() {
     }
     for (uint row = 0u; row < kRows; ++row) {
         uint pixel = firstPixel + row * kTileSize;
-        if (kSurfaces && push.firstMedium == 0u)
+        if (kSurfaces && push.step == 0u)
             counts[row] += UintArray(push.surfaceOffsets).at[pixel];
         UintArray(push.offsets).at[pixel] += counts[row];
     }

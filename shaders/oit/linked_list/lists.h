@@ -3,6 +3,7 @@
 #ifndef BRUME_SHADERS_OIT_LINKED_LIST_LISTS_H
 #define BRUME_SHADERS_OIT_LINKED_LIST_LISTS_H
 #include "../../common/shared.h"
+#include "../integrate/path.h"
 
 BRUME_STRUCTS_BEGIN
 
@@ -18,9 +19,12 @@ BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 struct ListPush {
-    uint meshIndex;                       // surface passes: which mesh is drawn
-    uint firstTile;                       // of the band
-    uint tileCount;                       // in the band
+    uint step;        // surface passes: which mesh is drawn; count, store: first medium of the
+                      // slice of a tile's media to visit; resolve: the round, from 0
+    uint firstSlot;   // of the band, among the tiles that have lists
+    uint tileCount;   // in the band
+    uint roundCount;  // resolve
+    uint64_t tileMap;  // uint[screen tiles]: slot of each, or ~0; then uint[]: tile of each slot
     uint64_t entries;                     // uvec2[]
     uint64_t offsets;                     // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
@@ -31,9 +35,6 @@ struct ListPush {
     uint64_t counters;  // ListCounters
     uint64_t progress;  // uint[pixels]: media stored already, and kUnsortedBit
     uint64_t states;    // PixelState[pixels]: where unfinished pixels go on in the next round
-    uint firstMedium;   // count, store: of the slice of a tile's media to visit
-    uint round;         // resolve: from 0
-    uint roundCount;
 };
 
 // Some devices silently end all loops of an invocation after 65 535 iterations (counted for eight
@@ -52,28 +53,12 @@ struct SurfaceRecord {
     vec3 scattering;    // solid: 1/m
     uint face;          // kFaceThin, kFaceFront, kFaceBack
     uint rank;          // breaks ties between equal distances
+    float distanceLo;   // what rounding has taken from the distance in the entry
 };
 
 BRUME_CONST uint kFaceThin = 0u;
 BRUME_CONST uint kFaceFront = 1u;  // of a solid: the ray enters
 BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
-
-// What a ray has met so far: everything that compositing front to back carries along.
-struct Path {
-    vec3 radiance;
-    vec3 surfaces;    // product of the transmissions of the thin surfaces crossed
-    vec3 surfacesLo;  // what rounding has taken from it
-    vec3 depthHi;     // optical depth of the media crossed: T = surfaces * exp(-depth)
-    vec3 depthLo;     // what rounding has taken from depthHi
-    vec3 decay;       // exp(-depth)
-};
-
-// Sums over the solids that the ray is inside, or over the open media of constant density.
-struct Sums {
-    int count;
-    vec3 extinctionHi, extinctionLo;
-    vec3 sourceHi, sourceLo;  // of solids: scattering coefficient
-};
 
 // How far a pixel is resolved.
 struct PixelState {
@@ -83,8 +68,9 @@ struct PixelState {
     uint surface;  // of the surfaces
     uint open;     // see constant.glsl and varying.glsl
     uint openBoxes;
-    float position;  // of the last event
-    float offset;    // distance behind it
+    float position;    // of the last event
+    float positionLo;  // what rounding has taken from it
+    float offset;      // distance behind it
     float stepLimit;
     Path path;
     Sums solids;
@@ -117,8 +103,8 @@ BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::ListPush) == 128);
-static_assert(sizeof(brume::shader::SurfaceRecord) == 48);
-static_assert(sizeof(brume::shader::PixelState) == 212);
+static_assert(sizeof(brume::shader::ListPush) == 120);
+static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
+static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif
 #endif

@@ -27,7 +27,7 @@ bool beginColumn(out uint tile, out uint firstPixel) {
     uint thread = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
     uint bandTile = thread / kTileSize;
     uint column = thread % kTileSize;
-    tile = push.firstTile + bandTile;
+    tile = tileAt(min(bandTile, push.tileCount - 1u));
     firstPixel = bandTile * 64u + column;
     uvec2 corner =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);
@@ -42,19 +42,19 @@ bool beginColumn(out uint tile, out uint firstPixel) {
 
 // The part of list[first .. last) that this dispatch visits.
 void sliceMedia(inout uint first, inout uint last) {
-    first = min(first + push.firstMedium, last);
+    first = min(first + push.step, last);
     last = min(first + kMediaPerSlice, last);
 }
 
 bool hitsSphere(SphereData sphere, uint row, out vec2 t) {
-    return intersectSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
-                           sphere.radius, t) &&
+    return mayHitSphere(columnRays[row].origin, columnRays[row].direction, sphere.center,
+                        sphere.radius, t) &&
            t.x < columnLimits[row];
 }
 
 bool hitsBox(BoxData box, VolumeData volume, uint row, out vec2 t) {
-    return intersectBox(volume.indexFromWorld * (columnRays[row].origin - box.corner),
-                        volume.indexFromWorld * columnRays[row].direction, box.size, t) &&
+    return mayHitBox(volume.indexFromWorld * (columnRays[row].origin - box.corner),
+                     volume.indexFromWorld * columnRays[row].direction, box.size, t) &&
            t.x < columnLimits[row];
 }
 

@@ -13,15 +13,20 @@ layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
 // -0 is 0.
 uint distanceKey(float t) { return floatBitsToUint(t) & 0x7fffffffu; }
 
-uint pixelIndex(uvec2 pixel) {
-    uvec2 tile = pixel / kTileSize, inside = pixel % kTileSize;
-    return (tile.y * frame.tiles.x + tile.x - push.firstTile) * 64u + inside.y * kTileSize +
-           inside.x;
+// Slots of tiles count from the band's first.
+uint tileAt(uint slot) {
+    return UintArray(push.tileMap).at[frame.tiles.x * frame.tiles.y + push.firstSlot + slot];
+}
+uint bandSlot(uvec2 pixel) {
+    uvec2 tile = pixel / kTileSize;
+    return UintArray(push.tileMap).at[tile.y * frame.tiles.x + tile.x] - push.firstSlot;
 }
 
-bool isInBand(uvec2 pixel) {
-    uvec2 tile = pixel / kTileSize;
-    return tile.y * frame.tiles.x + tile.x - push.firstTile < push.tileCount;
+uint pixelIndex(uvec2 pixel) {
+    uvec2 inside = pixel % kTileSize;
+    return bandSlot(pixel) * 64u + inside.y * kTileSize + inside.x;
 }
+
+bool isInBand(uvec2 pixel) { return bandSlot(pixel) < push.tileCount; }
 
 #endif

@@ -4,8 +4,7 @@
 // over the set of open media where densities or light vary.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/camera.glsl"
-#include "../../common/intersect.glsl"
+#include "../../common/chords.glsl"
 #include "../../common/lighting.glsl"
 #include "pixels.glsl"
 
@@ -25,15 +24,18 @@ layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingResult, rgba32f) writeonly uniform image2D result;
 layout(buffer_reference, scalar) buffer StateArray { PixelState at[]; };
 
-const float kFar = 1e30;                        // where the sky is
-const uvec2 kNoEntry = uvec2(0x7149f2cau, 0u);  // at kFar
+// Where the sky is: 2^100, the same number as float and as double.
+const float kFar = 1267650600228229401496703205376.0;
+const uvec2 kNoEntry = uvec2(0x71800000u, 0u);  // at kFar
 
-Ray ray;
+RealRay ray;
+vec3 rayDirection;  // rounded
 uint first;       // of the list
 uint mediaCount;  // its first part
 uint count;       // with the surfaces
 uint iterations = 0u;
 PixelState state;
+Real position;  // of the last event; kept in the state between rounds
 
 uvec2 loadEntry(uint i) { return Uvec2Array(push.entries).at[first + i]; }
 void storeEntry(uint i, uvec2 entry) { Uvec2Array(push.entries).at[first + i] = entry; }
@@ -44,8 +46,20 @@ uvec2 surfaceEntry() {
     return kSurfaces && state.surface < count ? loadEntry(state.surface) : kNoEntry;
 }
 
+// The interval of a medium on the ray.
+Real2 intersectMedium(uvec2 entry) {
+    uint index = entry.y & kIndexMask;
+    if (kBoxes && (entry.y >> kKindShift) == kKindBox)
+        return boxChord(ray, boxes[index], volumes[boxes[index].volume]);
+    return sphereChord(ray, spheres[index]);
+}
+
+Real surfaceDistance(uvec2 entry) {
+    float lo = entry.x == kNoEntry.x ? 0.0 : loadRecord(entry).distanceLo;
+    return makeReal(uintBitsToFloat(entry.x), lo);
+}
+
 #include "constant.glsl"
-#include "path.glsl"
 #include "sort.glsl"
 #include "varying.glsl"
 
@@ -69,14 +83,15 @@ void beginState(bool isUnsorted) {
     state.stage = isUnsorted ? kStageSortMedia : kSurfaces ? kStageSortSurfaces : kStageWalk;
     state.at = state.medium = state.open = state.openBoxes = 0u;
     state.surface = mediaCount;
-    state.position = state.offset = 0.0;
+    position = Real(0);
+    state.offset = 0.0;
     state.stepLimit = kFar;
     state.path = beginPath();
     state.media = noSums();
     state.solids = kSurfaces ? findSolidsAroundEye() : noSums();
 }
 
-void advance(float limit) {
+void advance(Real limit) {
     if (state.stage == kStageSortMedia && sortList(0u, mediaCount)) {
         state.stage = kSurfaces ? kStageSortSurfaces : kStageWalk;
         state.at = 0u;
@@ -95,7 +110,7 @@ void advance(float limit) {
 
 void main() {
     uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    uint tile = push.firstTile + bandTile;
+    uint tile = tileAt(min(bandTile, push.tileCount - 1u));
     uvec2 pixel =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
     if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
@@ -106,12 +121,14 @@ void main() {
     if (kSurfaces)
         mediaCount -= UintArray(push.surfaceOffsets).at[index + 1u] -
                       UintArray(push.surfaceOffsets).at[index];
-    ray = makeRay(vec2(pixel) + 0.5);
-    float limit = min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar);
+    ray = makeRealRay(vec2(pixel) + 0.5);
+    rayDirection = vec3(ray.direction);
+    Real limit = Real(min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar));
 
-    if (kRounds && push.round > 0u) {
+    if (kRounds && push.step > 0u) {
         state = StateArray(push.states).at[index];
         if (state.stage >= kStageDone) return;
+        position = makeReal(state.position, state.positionLo);
     } else {
         beginState((UintArray(push.progress).at[index] & kUnsortedBit) != 0u);
     }
@@ -119,7 +136,11 @@ void main() {
     vec3 rest = state.path.surfaces * state.path.decay;
     vec3 radiance = state.path.radiance + rest * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
     imageStore(result, ivec2(pixel), vec4(radiance, 1.0));
-    if (kRounds) StateArray(push.states).at[index] = state;
-    if (state.stage != kStageDone && push.round + 1u == push.roundCount)
+    if (kRounds) {
+        state.position = float(position);
+        state.positionLo = findLo(position);
+        StateArray(push.states).at[index] = state;
+    }
+    if (state.stage != kStageDone && push.step + 1u == push.roundCount)
         atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }

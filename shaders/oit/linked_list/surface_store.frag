@@ -11,7 +11,8 @@ layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 
 SurfaceRecord makeRecord(SurfacePoint point) {
     SurfaceRecord record;
-    record.rank = triangleHash(push.meshIndex, triangle);
+    record.distanceLo = point.t > 0.0 ? point.tLo : 0.0;
+    record.rank = triangleHash(push.step, triangle);
     if (point.material.type == kMaterialSolid) {
         record.radiance = vec3(0);
         record.coverage = 0.0;

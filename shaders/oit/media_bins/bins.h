@@ -22,6 +22,7 @@ BRUME_CONST uint kBinRowSlices = 8u;
 
 // Own bindings.
 BRUME_CONST uint kBindingSortedSpheres = 8u;  // SphereData[], written by gather
+BRUME_CONST uint kBindingSortedBoxes = 8u;    // BoxData[], written by box_rects
 
 BRUME_STRUCTS_END
 #endif

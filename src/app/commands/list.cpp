@@ -11,6 +11,7 @@
 #include <map>
 #include <oit/method_info.hpp>
 #include <particles/modules/module.hpp>
+#include <shadows/store_info.hpp>
 #include <vector>
 
 namespace brume::app {
@@ -47,9 +48,21 @@ void listMethodsAsMarkdown() {
                    describe(m.exactness), m.passes, m.bytesPerPixel, m.limits, m.paper);
 }
 
+void listSettings(std::span<const scene::SettingInfo> settings) {
+    for (const scene::SettingInfo& s : settings)
+        fmt::print("  shadow.{}={} ({}): {}\n", s.name, s.defaultValue, s.values, s.meaning);
+}
+
 void listShadows() {
+    for (const shadows::StoreInfo& store : shadows::listStores()) {
+        fmt::print("{:<16} {}\n  paper   {}\n  result  {}\n  bytes   {} per texel\n  limits  {}\n",
+                   store.name, store.summary, store.paper, store.result, store.bytesPerTexel,
+                   store.limits);
+        listSettings(store.settings);
+    }
     fmt::print("{:<16} Lights shine through everything\n", "none");
-    fmt::print("{:<16} Any other name: exact transmittance, with --method reference only\n", "...");
+    fmt::print("settings of every map (--set, or shadowSettings of a light without \"shadow.\")\n");
+    listSettings(shadows::listMapSettings());
 }
 
 std::string formatFallback(const particles::ModuleKey& key) {

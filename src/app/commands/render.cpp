@@ -143,7 +143,6 @@ void RenderCommand::renderOne(const std::filesystem::path& output) {
 Rendered RenderCommand::renderOnDevice() {
     render::Options options;
     options.method = mScene.scene.render.method;
-    options.shadow = mArguments.shadow;
     options.settings = mScene.scene.render.settings;
     options.triangleHashes = mArguments.against == "reference";
     render::Renderer renderer(*mDevice, mScene, options, mLog);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds out what each tile needs. Its list may be composited in order if, at each pixel, a medium
+// begins behind all those of other sources before it in the list; media of one source may overlap
+// in any order, because what they send is one and the same function of their summed depth.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "column.glsl"
+
+// The media last met that share a source, and where they and those before them end.
+struct Run {
+    uint medium;
+    vec3 tint;
+    float reach;
+    float reachBefore;
+};
+
+Run runs[kRows];
+bool needsLists = false;
+
+void meetSphere(uint row, SphereData sphere) {
+    Chord chord = findChord(rays[row], limits[row], sphere);
+    if (chord.span <= 0.0) return;
+    bool isSame = runs[row].medium == sphere.medium && runs[row].tint == sphere.tint;
+    if (!isSame) {
+        runs[row].reachBefore = max(runs[row].reachBefore, runs[row].reach);
+        runs[row].medium = sphere.medium;
+        runs[row].tint = sphere.tint;
+    }
+    const float kMargin = 1.000001;  // rounding must not hide an overlap
+    needsLists = needsLists || chord.enter < runs[row].reachBefore * kMargin;
+    runs[row].reach = max(runs[row].reach, chord.enter + chord.span);
+}
+
+void main() {
+    uint tile;
+    if (!beginColumn(tile)) return;
+    [[unroll]] for (uint row = 0u; row < kRows; ++row)
+        runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
+    uint k = UintArray(push.sphereOffsets).at[tile];
+    uint last = UintArray(push.sphereOffsets).at[tile + 1u];
+    bool isEmpty = k == last;
+    needsLists = last - k > kTileLongestList;
+    last = min(last, k + kTileLongestList);
+    uint before = 0u;
+    while (k < last) {
+        uint index = UintArray(push.spherePairs).at[k];
+        ++k;
+        needsLists = needsLists || index < before;  // the list could not be sorted
+        before = index;
+        SphereData sphere = spheres[index];
+        if (!kOneSource)
+            [[unroll]] for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
+    }
+    k = UintArray(push.boxOffsets).at[tile];
+    last = UintArray(push.boxOffsets).at[tile + 1u];
+    bool hasBoxes = k < last;
+    bool areBoxesEasy = kOneSource || (kOneMedium && isEmpty);  // classify_boxes.comp says more
+    needsLists = needsLists || (hasBoxes && !areBoxesEasy) || last - k > kTileLongestList;
+    last = min(last, k + kTileLongestList);
+    for (before = 0u; k < last; ++k) {
+        uint index = UintArray(push.boxPairs).at[k];
+        needsLists = needsLists || index < before;
+        before = index;
+    }
+    uint needed = needsLists ? kClassLists
+                  : hasBoxes ? kClassVolumes
+                  : isEmpty  ? kClassEmpty
+                             : kClassOrdered;
+    atomicMax(UintArray(push.classes).at[tile], needed);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Per texel, sample and channel the distance at which a light ray ends, drawn at random: surfaces
+// end it with probability 1 - t, media after an exponentially distributed depth.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../common/casters.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ShadowPush push; };
+layout(buffer_reference, scalar) writeonly buffer Depths { float at[]; };
+
+const uint kMaxSamples = 8u;
+ShadowMap map;
+BuildTexel texel;
+vec3 depths[kMaxSamples];
+uint openId = ~0u;          // of the medium interval that pieces belong to
+vec3 crossed;               // its depth so far
+float limits[kMaxSamples];  // its depth at which each sample's ray ends
+
+// PCG output function (O'Neill 2014).
+uint hashId(uint id) {
+    uint state = id * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// In (0, 1), the same for all channels: the tile of blue noise, moved by the fragment's id. Values
+// are never shifted, which would correlate layers. Samples of a texel share strata.
+float fragmentNoise(uint id, uint sampleIndex) {
+    uint h = hashId(id ^ (map.isIndependent != 0u ? sampleIndex * 0x9e3779b9u : 0u));
+    uvec2 at = (texel.texel + uvec2(h & 0xffffu, h >> 16)) % kNoiseSize;
+    float value = FloatArray(map.noise).at[at.y * kNoiseSize + at.x];
+    if (map.isIndependent != 0u) return value;
+    uint stratum = (sampleIndex + (hashId(h + texel.index) >> 16)) % map.count;
+    return (float(stratum) + value) / float(map.count);
+}
+
+void takePiece(float t0, float t1, vec3 depth, uint id) {
+    if (id != openId) {
+        openId = id;
+        crossed = vec3(0);
+        for (uint s = 0u; s < map.count; ++s) limits[s] = -log(1.0 - fragmentNoise(id, s));
+    }
+    vec3 after = crossed + depth;
+    for (uint s = 0u; s < map.count; ++s)
+        for (uint c = 0u; c < map.channels; ++c)
+            if (crossed[c] < limits[s] && after[c] >= limits[s])
+                depths[s][c] =
+                    min(depths[s][c], mix(t0, t1, (limits[s] - crossed[c]) / max(depth[c], 1e-30)));
+    crossed = after;
+}
+
+void takeSurface(float t, vec3 transmittance, uint id) {
+    for (uint s = 0u; s < map.count; ++s) {
+        float noise = fragmentNoise(id, s);
+        for (uint c = 0u; c < map.channels; ++c)
+            if (noise < 1.0 - transmittance[c]) depths[s][c] = min(depths[s][c], t);
+    }
+}
+
+#include "../common/walk.glsl"
+
+void main() {
+    map = ShadowMapRef(push.map).map;
+    texel = findBuildTexel(map, gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x,
+                           gl_LocalInvocationIndex);
+    if (!texel.isInside) return;
+    for (uint s = 0u; s < kMaxSamples; ++s) depths[s] = vec3(3.0e38);
+    walkCasters(map, texel.tile, mapRay(map, texel.face, vec2(texel.texel) + 0.5));
+    for (uint s = 0u; s < map.count; ++s)
+        for (uint c = 0u; c < map.channels; ++c)
+            Depths(push.target).at[(texel.index * map.count + s) * map.channels + c] = depths[s][c];
+}

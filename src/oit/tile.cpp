@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+// What: exact order-independent transparency in compute: media sorted by their smallest distance,
+//       binned to screen tiles and composited front to back with all state in registers.
+// Source: T. Ganestam et al. and others bin splats to tiles; B. Kerbl et al.: "3D Gaussian
+//         Splatting for Real-Time Radiance Field Rendering", SIGGRAPH 2023, section 6 (tiles,
+//         depth order, early termination).
+// Differs: media have extent; whether composition in the order of a tile's list is exact is not
+//         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
+//         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
+// Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
+//         largest radiance that media or the background may still send (errorBound()).
+// Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
+#include <oit/bindings.hpp>
+#include <oit/pixel_lists.hpp>
+
+#include <shaders/common/frame.h>
+#include <shaders/common/frame_bindings.h>
+#include <shaders/oit/tile/tile.h>
+#include <spv/common/mesh.vert.hpp>
+#include <spv/oit/tile/classify.comp.float64.hpp>
+#include <spv/oit/tile/classify.comp.hpp>
+#include <spv/oit/tile/classify_boxes.comp.float64.hpp>
+#include <spv/oit/tile/classify_boxes.comp.hpp>
+#include <spv/oit/tile/composite.comp.float64.hpp>
+#include <spv/oit/tile/composite.comp.hpp>
+#include <spv/oit/tile/lit_volumes.comp.float64.hpp>
+#include <spv/oit/tile/lit_volumes.comp.hpp>
+#include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/volumes.comp.float64.hpp>
+#include <spv/oit/tile/volumes.comp.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+namespace brume::oit::tile {
+namespace {
+
+using frame::Access;
+
+const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
+
+struct Settings {
+    float epsilon = 1.f / 1024;  ///< transmittance at which a pixel stops; 0: exact
+    std::uint64_t budgetBytes = 1024ull << 20;  ///< for lists
+};
+
+class Tile final : public OitMethod {
+  public:
+    Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings);
+
+    const MethodInfo& info() const override;
+    void prepare(const MeasureFunction& measure) override;
+    void declare(frame::FrameBuilder& frame, const Inputs& inputs) override;
+    std::map<std::string, std::uint64_t> counters() override;
+    std::optional<double> errorBound() override;
+    std::map<std::string, std::uint64_t> bytes() const override;
+
+  private:
+    /// Tiles that one pipeline visits.
+    struct Group {
+        gpu::ComputePipeline pipeline;
+        std::uint32_t threadsPerTile = 0;
+        std::uint32_t tileCount = 0;
+        gpu::Buffer tiles;  ///< uint[tileCount]
+    };
+
+    gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
+                                      const std::vector<gpu::Binding>& own) const;
+    gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
+                           gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
+    shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
+    void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
+    void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
+    void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
+    void planTiles();
+    void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
+    void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
+                          bool isFirstWriter);
+
+    gpu::Device* mDevice;
+    Settings mSettings;
+    Needs mNeeds;
+    std::uint32_t mTileCount;
+    MediaBins mBins;
+    Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    gpu::ComputePipeline mClassifyBoxes;
+    gpu::GraphicsPipeline mMark;
+    std::optional<PixelLists> mLists;
+    std::uint64_t mListTileCount = 0;
+    gpu::Buffer mClasses, mClassesRead, mCounters, mCountersRead;
+    bool mIsScreenCovered = true;  // by the tiles of one group
+};
+
+Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
+    : mDevice(&device),
+      mSettings(settings),
+      mNeeds(inputs.needs),
+      mTileCount(countTiles(inputs.extent)),
+      mBins(device, "oit.tile", inputs, true) {
+    // Double precision shows where media are dense, and not beside what an early stop leaves out.
+    const bool isFine = settings.epsilon == 0 && device.features().shaderFloat64;
+    const auto choose = [&](std::span<const std::uint32_t> float32,
+                            std::span<const std::uint32_t> float64) {
+        return isFine ? float64 : float32;
+    };
+    const std::vector<gpu::Binding> images = {
+        {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+        {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
+    mAll = {makePipeline("classify", choose(spv::oit_tile_classify_comp,
+                                            spv::oit_tile_classify_comp_float64), {}),
+            shader::kTileSize};
+    mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
+                                                 spv::oit_tile_composite_comp_float64), images),
+                shader::kTileSize};
+    const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
+    if (mNeeds.boxes && mNeeds.oneSource) {
+        mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
+                                                   spv::oit_tile_volumes_comp_float64), images),
+                    pixels};
+    } else if (mNeeds.boxes && mNeeds.oneMedium) {
+        mVolumes = {makePipeline("lit_volumes",
+                                 choose(spv::oit_tile_lit_volumes_comp,
+                                        spv::oit_tile_lit_volumes_comp_float64), images),
+                    pixels};
+        mClassifyBoxes = makePipeline("classify_boxes",
+                                      choose(spv::oit_tile_classify_boxes_comp,
+                                             spv::oit_tile_classify_boxes_comp_float64), {});
+    }
+    if (mNeeds.surfaces)
+        mMark = {device,
+                 {.name = "oit.tile.mark_surfaces",
+                  .vertexSpirv = spv::common_mesh_vert,
+                  .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
+                  .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
+                  .pushConstantBytes = sizeof(shader::TilePush),
+                  .constants = lightingConstants(mNeeds)}};
+    mClasses = makeBuffer("classes", 4ull * mTileCount);
+    mClassesRead = makeBuffer("classes_read", 4ull * mTileCount, gpu::MemoryKind::Readback);
+    mCounters = makeBuffer("counters", sizeof(shader::TileCounters));
+    mCountersRead =
+        makeBuffer("counters_read", sizeof(shader::TileCounters), gpu::MemoryKind::Readback);
+}
+
+gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
+                                        const std::vector<gpu::Binding>& own) const {
+    return {*mDevice,
+            {.name = std::string("oit.tile.") + stage,
+             .spirv = spirv,
+             .bindings = join(join(frameBindings(), mediaBindings()), join({kOpaqueT}, own)),
+             .pushConstantBytes = sizeof(shader::TilePush),
+             .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
+                                mNeeds.colouredExtinction,
+                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
+                                mNeeds.oneMedium},
+             .constants = lightingConstants(mNeeds)}};
+}
+
+gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,
+                             gpu::MemoryKind memory) const {
+    return {*mDevice,
+            {.name = std::string("oit.tile.") + stage,
+             .bytes = std::max<std::uint64_t>(bytes, 16),
+             .memory = memory}};
+}
+
+void Tile::setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const {
+    group.tileCount = static_cast<std::uint32_t>(tiles.size());
+    group.tiles = makeBuffer("tiles", 4 * tiles.size(), gpu::MemoryKind::Upload);
+    std::copy(tiles.begin(), tiles.end(), group.tiles.mappedAs<std::uint32_t>().begin());
+}
+
+shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const {
+    return {.tiles = tiles.deviceAddress(),
+            .sphereOffsets = mBins.spheres().offsets,
+            .spherePairs = mBins.spheres().pairs,
+            .boxOffsets = mBins.boxes().offsets,
+            .boxPairs = mBins.boxes().pairs,
+            .classes = mClasses.deviceAddress(),
+            .counters = mCounters.deviceAddress(),
+            .tileCount = tileCount,
+            .epsilon = mSettings.epsilon,
+            .largestTint = mNeeds.largestTint};
+}
+
+void Tile::prepare(const MeasureFunction& measure) {
+    measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
+        mBins.declareCount(frame, inputs);
+        mBins.declareTotals(frame);
+    });
+    mBins.allocate();
+    std::vector<std::uint32_t> all(mTileCount);
+    for (std::uint32_t tile = 0; tile < mTileCount; ++tile) all[tile] = tile;
+    setTiles(mAll, all);
+    measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
+        mBins.declareCount(frame, inputs);
+        mBins.declareScatter(frame, inputs);
+        declareMark(frame, inputs);
+        declareClassify(frame, inputs);
+    });
+    planTiles();
+    if (mLists) mLists->prepare(measure);
+}
+
+void Tile::declareMark(frame::FrameBuilder& frame, const Inputs& inputs) {
+    const frame::BufferRef classes = frame.importBuffer(mClasses);
+    frame.addPass("oit.tile.clear_classes")
+        .writes(classes, Access::TransferWrite)
+        .record([this](gpu::Commands& commands, const frame::PassResources&) {
+            commands.fillBuffer(mClasses, shader::kClassEmpty);
+        });
+    if (!mNeeds.surfaces) return;
+    frame.addPass("oit.tile.mark_surfaces")
+        .reads(inputs.opaqueT, Access::FragmentSample)
+        .readsWrites(classes, Access::FragmentWrite)
+        .renderArea(inputs.extent)
+        .record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindGraphics(mMark);
+            bindFrame(commands, inputs);
+            bindMeshes(commands, inputs);
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            drawSurfaces(commands, inputs, [&](std::uint32_t) {
+                commands.pushConstants(makePush(mAll.tiles, mTileCount));
+            });
+        });
+}
+
+void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
+    const frame::BufferRef classes = frame.importBuffer(mClasses);
+    frame::PassBuilder& pass = frame.addPass("oit.tile.classify");
+    mBins.declareReads(frame, pass);
+    pass.reads(inputs.opaqueT, Access::ComputeSample);
+    pass.readsWrites(classes, Access::ComputeWrite);
+    pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+        const auto run = [&](const gpu::ComputePipeline& pipeline, std::uint32_t threadsPerTile) {
+            commands.bindCompute(pipeline);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.pushConstants(makePush(mAll.tiles, mTileCount));
+            commands.dispatchThreads(std::uint64_t{mTileCount} * threadsPerTile, 64);
+        };
+        run(mAll.pipeline, shader::kTileSize);
+        if (!mClassifyBoxes) return;
+        commands.computeBarrier();
+        run(mClassifyBoxes, shader::kTileSize * shader::kTileSize);
+    });
+    frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
+}
+
+void Tile::planTiles() {
+    // Sources are worked out once per ray for a few media, and where light is the same everywhere.
+    const bool canComposite =
+        !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
+    std::vector<std::uint32_t> empty, ordered, volumes, lists;
+    const auto classes = mClassesRead.mappedAs<std::uint32_t>();
+    for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
+        if (classes[tile] == shader::kClassEmpty)
+            empty.push_back(tile);
+        else if (classes[tile] == shader::kClassOrdered && canComposite)
+            ordered.push_back(tile);
+        else if (classes[tile] == shader::kClassVolumes)
+            volumes.push_back(tile);
+        else
+            lists.push_back(tile);
+    }
+    // Copying the image is cheaper than visiting many empty tiles.
+    mIsScreenCovered = empty.size() < mTileCount / 4 && empty.size() + ordered.size() == mTileCount;
+    if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
+    setTiles(mOrdered, ordered);
+    setTiles(mVolumes, volumes);
+    mAll.tiles = {};  // not visited again
+    mListTileCount = lists.size();
+    mLists.reset();
+    if (lists.empty()) return;
+    mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins);
+    mLists->setTiles(lists, mTileCount);
+}
+
+void Tile::declareClear(frame::FrameBuilder& frame, const Inputs& inputs) {
+    frame::PassBuilder& pass = frame.addPass("oit.tile.clear");
+    pass.writes(frame.importBuffer(mCounters), Access::TransferWrite);
+    if (!mIsScreenCovered)
+        pass.reads(inputs.opaqueColor, Access::TransferRead)
+            .writes(inputs.result, Access::TransferWrite);
+    pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+        commands.fillBuffer(mCounters, 0);
+        if (!mIsScreenCovered)
+            commands.copyImage(resources.image(inputs.opaqueColor), resources.image(inputs.result));
+    });
+}
+
+void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
+                            bool isFirstWriter) {
+    frame::PassBuilder& pass = frame.addPass(group.pipeline.name());
+    mBins.declareReads(frame, pass);
+    pass.reads(inputs.opaqueT, Access::ComputeSample);
+    pass.reads(inputs.opaqueColor, Access::ComputeSample);
+    pass.readsWrites(frame.importBuffer(mCounters), Access::ComputeWrite);
+    if (isFirstWriter)
+        pass.writes(inputs.result, Access::ComputeWrite);
+    else
+        pass.readsWrites(inputs.result, Access::ComputeWrite);
+    pass.record([this, inputs, &group](gpu::Commands& commands,
+                                       const frame::PassResources& resources) {
+        commands.bindCompute(group.pipeline);
+        bindFrame(commands, inputs);
+        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                      *inputs.texelSampler);
+        commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
+                      *inputs.texelSampler);
+        commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
+        commands.pushConstants(makePush(group.tiles, group.tileCount));
+        commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
+    });
+}
+
+void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
+    mBins.declareCount(frame, inputs);
+    mBins.declareScatter(frame, inputs);
+    declareClear(frame, inputs);
+    bool isFirstWriter = mIsScreenCovered;
+    for (Group* group : {&mOrdered, &mVolumes}) {
+        if (group->tileCount == 0) continue;
+        declareComposite(frame, inputs, *group, isFirstWriter);
+        isFirstWriter = false;
+    }
+    if (mLists) mLists->declare(frame, inputs, false);
+    frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);
+}
+
+std::map<std::string, std::uint64_t> Tile::counters() {
+    std::map<std::string, std::uint64_t> counters = {{"dropped", 0}, {"exhausted", 0}};
+    if (mLists) counters = mLists->counters();
+    const auto own = mCountersRead.mappedAs<shader::TileCounters>()[0];
+    counters["pairs"] = mBins.pairCount();
+    counters["tilesOrdered"] = mOrdered.tileCount;
+    counters["tilesVolumes"] = mVolumes.tileCount;
+    counters["tilesLists"] = mListTileCount;
+    counters["exhausted"] += own.exhausted;
+    counters["stopped"] = own.stopped;
+    return counters;
+}
+
+std::optional<double> Tile::errorBound() {
+    return std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
+}
+
+std::map<std::string, std::uint64_t> Tile::bytes() const {
+    std::map<std::string, std::uint64_t> bytes;
+    if (mLists) bytes = mLists->bytes();
+    bytes["bins"] = mBins.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
+    return bytes;
+}
+
+}  // namespace
+
+const MethodInfo& info() {
+    static const MethodInfo kInfo{
+        .name = "tile",
+        .summary = "Media composited per screen tile in compute, in certified order; lists only "
+                   "where that needs them.",
+        .paper = "Kerbl et al.: 3D Gaussian Splatting, 2023 (tiles); Barta, Kovacs 2011 (lists)",
+        .exactness = Exactness::Bounded,
+        .passes = "1 sort + 1 compute; those of linked_list for tiles with surfaces or mixtures",
+        .bytesPerPixel = "0 (4 per pair of tile and medium); in tiles with lists as linked_list",
+        .limits = "exact with epsilon = 0; else off by at most epsilon times the radiance behind",
+        .settings = {{"epsilon", "0 .. 0.5", "0.0009765625",
+                      "transmittance at which a pixel stops; 0: never"},
+                     {"budgetMiB", "1 .. 1048576 MiB", "1024",
+                      "memory for lists; beyond it, tiles are rendered in bands"}}};
+    return kInfo;
+}
+
+const MethodInfo& Tile::info() const { return tile::info(); }
+
+std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
+                                  const scene::Settings& settings) {
+    scene::SettingsReader reader(settings, "setting up method tile");
+    Settings values;
+    values.epsilon = static_cast<float>(reader.number("epsilon", values.epsilon, 0, 0.5));
+    values.budgetBytes = static_cast<std::uint64_t>(reader.integer("budgetMiB", 1024, 1, 1 << 20))
+                         << 20;
+    reader.finish();
+    return std::make_unique<Tile>(device, inputs, values);
+}
+
+}  // namespace brume::oit::tile

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gpu/upload.hpp>
+#include <render/shadow_casters.hpp>
+
+#include <shaders/common/mesh.h>
+#include <shaders/shadows/common/maps.h>
+
+#include <algorithm>
+
+namespace brume::render {
+namespace {
+
+bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
+
+template <typename T>
+gpu::Buffer makeArray(gpu::Submitter& submitter, const std::string& name, std::vector<T> values) {
+    if (values.empty()) values.resize(1);
+    gpu::Buffer buffer;
+    submitter.submitAndWait("upload " + name, [&](gpu::Commands& commands) {
+        buffer = gpu::makeBuffer(commands, name, values);
+    });
+    return buffer;
+}
+
+void extend(Box3& bounds, const scene::MediumSphere& sphere) {
+    if (!(sphere.radius > 0)) return;
+    bounds.extend(sphere.center - dvec3(sphere.radius));
+    bounds.extend(sphere.center + dvec3(sphere.radius));
+}
+
+bool castsColour(const scene::Material& material) {
+    if (material.type == scene::MaterialType::Solid)
+        return !isGrey(material.absorption + material.scattering);
+    return material.type == scene::MaterialType::Thin &&
+           (material.colorTexture || !isGrey(material.transmission));
+}
+
+}  // namespace
+
+Box3 findTranslucentBounds(const PreparedScene& prepared,
+                           std::span<const scene::MediumSphere> particles) {
+    Box3 bounds;
+    for (const scene::MediumSphere& sphere : prepared.spheres) extend(bounds, sphere);
+    for (const scene::MediumSphere& sphere : particles) extend(bounds, sphere);
+    for (const volumes::VolumeGrid& grid : prepared.volumes)
+        if (!grid.isEmpty()) bounds.extend(grid.worldBounds());
+    for (const scene::Mesh& mesh : prepared.scene.meshes) {
+        if (prepared.scene.materials[mesh.material].type == scene::MaterialType::Opaque) continue;
+        for (const vec3& position : mesh.positions)
+            bounds.extend(transformPoint(mesh.worldFromObject, dvec3(position)));
+    }
+    return bounds;
+}
+
+ShadowCasters::ShadowCasters(gpu::Submitter& submitter, const PreparedScene& prepared,
+                             const GpuScene& device,
+                             std::span<const scene::MediumSphere> particles) {
+    const oit::Inputs inputs = device.makeInputs();
+    if (inputs.needs.shadowStores == 0) return;
+    mCasters.origin = device.camera().position;
+    mCasters.frame = inputs.frame;
+    mCasters.lights = inputs.lights;
+    mCasters.media = inputs.media;
+    mCasters.spheres = &device.spheres();
+    mCasters.boxes = inputs.boxes;
+    mCasters.volumes = inputs.volumes;
+    mCasters.sphereCount = inputs.sphereCount;
+    mCasters.boxCount = inputs.boxCount;
+    mCasters.translucentBounds = findTranslucentBounds(prepared, particles);
+    for (const scene::Medium& medium : prepared.scene.media)
+        if (!isGrey(medium.extinction)) mCasters.isColoured = true;
+    uploadTriangles(submitter, prepared);
+    uploadMaterials(submitter, prepared);
+    mCasters.triangles = &mTriangles;
+    mCasters.materials = &mMaterials;
+}
+
+void ShadowCasters::uploadTriangles(gpu::Submitter& submitter, const PreparedScene& prepared) {
+    std::vector<shader::ShadowTriangle> opaque, translucent;
+    std::uint32_t id = 0;
+    for (const scene::Mesh& mesh : prepared.scene.meshes) {
+        const scene::Material& material = prepared.scene.materials[mesh.material];
+        const bool isOpaque = material.type == scene::MaterialType::Opaque;
+        if (castsColour(material)) mCasters.isColoured = true;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            vec3 corners[3];
+            vec2 uvs[3];
+            for (int c = 0; c < 3; ++c) {
+                const std::uint32_t index = mesh.indices[i + c];
+                const dvec3 world =
+                    transformPoint(mesh.worldFromObject, dvec3(mesh.positions[index]));
+                if (isOpaque) mCasters.opaqueBounds.extend(world);
+                corners[c] = vec3(world - mCasters.origin);
+                uvs[c] = mesh.uvs[index];
+            }
+            (isOpaque ? opaque : translucent)
+                .push_back({.a = corners[0],
+                            .b = corners[1],
+                            .c = corners[2],
+                            .uvA = uvs[0],
+                            .uvB = uvs[1],
+                            .uvC = uvs[2],
+                            .material = mesh.material,
+                            .id = id++});
+        }
+    }
+    mCasters.opaqueTriangleCount = static_cast<std::uint32_t>(opaque.size());
+    mCasters.translucentTriangleCount = static_cast<std::uint32_t>(translucent.size());
+    opaque.insert(opaque.end(), translucent.begin(), translucent.end());
+    mTriangles = makeArray(submitter, "render.shadow_triangles", std::move(opaque));
+}
+
+void ShadowCasters::uploadMaterials(gpu::Submitter& submitter, const PreparedScene& prepared) {
+    std::vector<shader::ShadowMaterial> materials;
+    for (const scene::Material& material : prepared.scene.materials) {
+        shader::ShadowMaterial& data = materials.emplace_back();
+        data.transmission = vec3(material.transmission);
+        data.type = material.type == scene::MaterialType::Opaque ? shader::kMaterialOpaque
+                    : material.type == scene::MaterialType::Thin ? shader::kMaterialThin
+                                                                 : shader::kMaterialSolid;
+        data.extinction = vec3(material.absorption + material.scattering);
+        data.coverage = static_cast<float>(
+            material.type == scene::MaterialType::Thin ? material.coverage : 1.0);
+        data.alphaCutoff = static_cast<float>(material.alphaCutoff);
+        data.ior = static_cast<float>(material.ior);
+        const scene::Texture* texture = material.colorTexture.get();
+        const bool usesTexture =
+            texture && (material.type == scene::MaterialType::Thin || material.alphaCutoff >= 0);
+        if (!usesTexture) continue;
+        gpu::Buffer& buffer = mTextures[texture];
+        if (!buffer)
+            buffer =
+                makeArray(submitter, "render.shadow_texture " + texture->name, texture->texels);
+        data.textureSize = {static_cast<std::uint32_t>(texture->width),
+                            static_cast<std::uint32_t>(texture->height)};
+        data.texture = buffer.deviceAddress();
+    }
+    mMaterials = makeArray(submitter, "render.shadow_materials", std::move(materials));
+}
+
+std::uint64_t ShadowCasters::bytes() const {
+    std::uint64_t sum = mTriangles.bytes() + mMaterials.bytes();
+    for (const auto& [texture, buffer] : mTextures) sum += buffer.bytes();
+    return sum;
+}
+
+}  // namespace brume::render

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The casters of a map, binned to its tiles.
+#pragma once
+
+#include <frame/frame_builder.hpp>
+#include <gpu/prefix_sum.hpp>
+#include <gpu/radix_sort.hpp>
+#include <shadows/casters.hpp>
+
+#include <shaders/shadows/common/maps.h>
+
+#include <array>
+#include <memory>
+
+namespace brume::shadows {
+
+/// Which casters a map has.
+enum class CasterChoice { Opaque, Translucent, All };
+
+/// Casters sorted by distance, then pairs of tile and caster sorted by tile: no atomics, so that
+/// every list is the same in every run and whatever the order of submission.
+class CasterBins {
+  public:
+    CasterBins(gpu::Device& device, const Casters& casters, CasterChoice choice,
+               const shader::ShadowMap& map);
+
+    /// Counts the pairs; after that frame, allocate() makes room for them.
+    void declareCount(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
+                      frame::BufferRef spheres);
+    void allocate(shader::ShadowMap& map);
+    /// Pass "shadow.bins": counts and fills the tiles' lists.
+    void declare(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
+                 frame::BufferRef spheres);
+    void declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const;
+
+    std::uint64_t bytes() const;
+
+  private:
+    struct Set {
+        std::uint32_t kind = 0, first = 0, count = 0, pairCount = 0;
+        gpu::Buffer orderKeys, order, counts, sums, total;
+        gpu::Buffer tiles, casters, starts;
+        gpu::ComputePipeline identity, distance, count_, write;
+        std::unique_ptr<gpu::RadixSort> orderSort, pairSort;
+    };
+    Set makeSet(std::uint32_t kind, std::uint32_t first, std::uint32_t count);
+    void recordCount(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
+    void recordPairs(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
+    void run(gpu::Commands& commands, const gpu::ComputePipeline& pipeline,
+             const shader::ShadowBinPush& push, std::uint32_t threads) const;
+
+    gpu::Device* mDevice;
+    const Casters* mCasters;
+    std::uint32_t mTileCount;
+    gpu::PrefixSum mPrefixSum;
+    gpu::ComputePipeline mStarts;
+    std::array<Set, 3> mSets;  // spheres, boxes, triangles
+};
+
+}  // namespace brume::shadows
