@@ -233,11 +233,12 @@ float limitStepByLight(LightData light, float place) {
 
 float limitStepByLights(float place) {
     float limit = kFar;
+    vec3 origin = vec3(ray.origin), direction = vec3(ray.direction);
     for (uint i = 0u; i < frame.lightCount; ++i)
         limit = min(limit, min(lights[i].type != kLightDirectional
                                    ? limitStepByLight(lights[i], place)
                                    : kFar,
-                               shadowStep(i)));
+                               shadowStep(i, origin + direction * place, direction)));
     iterations += frame.lightCount;
     return limit;
 }
