@@ -26,6 +26,8 @@
 #include <spv/oit/tile/lit_volumes.comp.float64.hpp>
 #include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/overlaps.comp.float64.hpp>
+#include <spv/oit/tile/overlaps.comp.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
 
@@ -73,6 +75,10 @@ class Tile final : public OitMethod {
     void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
     void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
+    /// Sources are worked out once per ray: for a few media, where light is the same everywhere.
+    bool canComposite() const {
+        return !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
+    }
     void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
@@ -83,7 +89,7 @@ class Tile final : public OitMethod {
     Needs mNeeds;
     std::uint32_t mTileCount;
     MediaBins mBins;
-    Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    Group mAll, mOrdered, mVolumes, mOverlaps;  // mAll: those that classify visits
     gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
@@ -114,6 +120,10 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                                                  spv::oit_tile_composite_comp_float64), images),
                 shader::kTileSize};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
+    if (!mNeeds.oneSource && canComposite())
+        mOverlaps = {makePipeline("overlaps", choose(spv::oit_tile_overlaps_comp,
+                                                     spv::oit_tile_overlaps_comp_float64), images),
+                     pixels};
     if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
                                                    spv::oit_tile_volumes_comp_float64), images),
@@ -199,6 +209,16 @@ void Tile::prepare(const MeasureFunction& measure) {
         declareClassify(frame, inputs);
     });
     planTiles();
+    if (mOverlaps.tileCount > 0) {
+        // Which of them cannot hold what is open at a time?
+        measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
+            mBins.declareCount(frame, inputs);
+            mBins.declareScatter(frame, inputs);
+            declareComposite(frame, inputs, mOverlaps, true);
+            frame.addReadback("oit.tile.classes_read", frame.importBuffer(mClasses), mClassesRead);
+        });
+        planTiles();
+    }
     if (mLists) mLists->prepare(measure);
 }
 
@@ -251,16 +271,15 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
 }
 
 void Tile::planTiles() {
-    // Sources are worked out once per ray for a few media, and where light is the same everywhere.
-    const bool canComposite =
-        !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
-    std::vector<std::uint32_t> empty, ordered, volumes, lists;
+    std::vector<std::uint32_t> empty, ordered, volumes, overlaps, lists;
     const auto classes = mClassesRead.mappedAs<std::uint32_t>();
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         if (classes[tile] == shader::kClassEmpty)
             empty.push_back(tile);
-        else if (classes[tile] == shader::kClassOrdered && canComposite)
+        else if (classes[tile] == shader::kClassOrdered && canComposite())
             ordered.push_back(tile);
+        else if (classes[tile] == shader::kClassOverlaps && canComposite())
+            overlaps.push_back(tile);
         else if (classes[tile] == shader::kClassVolumes)
             volumes.push_back(tile);
         else
@@ -271,6 +290,7 @@ void Tile::planTiles() {
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
     setTiles(mOrdered, ordered);
     setTiles(mVolumes, volumes);
+    setTiles(mOverlaps, overlaps);
     mAll.tiles = {};  // not visited again
     mListTileCount = lists.size();
     mLists.reset();
@@ -298,7 +318,8 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    pass.readsWrites(frame.importBuffer(mCounters), Access::ComputeWrite);
+    for (const gpu::Buffer* buffer : {&mCounters, &mClasses})
+        pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (isFirstWriter)
         pass.writes(inputs.result, Access::ComputeWrite);
     else
@@ -323,7 +344,7 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
     bool isFirstWriter = mIsScreenCovered;
-    for (Group* group : {&mOrdered, &mVolumes}) {
+    for (Group* group : {&mOrdered, &mVolumes, &mOverlaps}) {
         if (group->tileCount == 0) continue;
         declareComposite(frame, inputs, *group, isFirstWriter);
         isFirstWriter = false;
@@ -339,6 +360,7 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["pairs"] = mBins.pairCount();
     counters["tilesOrdered"] = mOrdered.tileCount;
     counters["tilesVolumes"] = mVolumes.tileCount;
+    counters["tilesOverlaps"] = mOverlaps.tileCount;
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] = own.stopped;
@@ -353,7 +375,8 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
     bytes["bins"] = mBins.bytes();
-    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mOverlaps.tiles.bytes() +
+                     mClasses.bytes();
     return bytes;
 }
 
