@@ -67,7 +67,7 @@ void main() {
     }
     needsLists = needsLists || (isMixed && (isSmooth || hasBoxes));
     uint needed = needsLists ? kClassLists
-                  : isMixed  ? kClassOverlaps
+                  : isMixed  ? kClassFewMix
                   : hasBoxes ? kClassVolumes
                   : isEmpty  ? kClassEmpty
                              : kClassOrdered;

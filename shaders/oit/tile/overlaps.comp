@@ -8,6 +8,8 @@
 #include "../../common/lighting.glsl"
 #include "media.glsl"
 
+layout(constant_id = 6) const uint kOpenIntervals = kManyIntervals;
+layout(constant_id = 7) const uint kClassIfFull = kClassLists;  // what a tile needs then
 layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingTileResult, rgba32f) writeonly uniform image2D result;
 
@@ -109,7 +111,7 @@ void main() {
         isLost = isMet && !insertInterval(chord.x, chord.y, sphere) && findRest() >= stop;
     }
     advance(k < last || isLost ? position : limit, stop);
-    if (isLost) atomicMax(UintArray(push.classes).at[tile], kClassLists);
+    if (isLost) atomicMax(UintArray(push.classes).at[tile], kClassIfFull);
     if (steps >= kMostSteps) countExhausted();
 
     vec3 rest = path.surfaces * path.decay;
