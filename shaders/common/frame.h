@@ -43,7 +43,8 @@ struct LightData {
     vec3 direction;  // unit, in which the light travels
     float cosInner;
     float cosOuter;
-    uint64_t shadow;  // address of its ShadowMap (shadows/common/maps.h); 0: shines through everything
+    uint64_t
+        shadow;  // address of its ShadowMap (shadows/common/maps.h); 0: shines through everything
 };
 
 BRUME_CONST uint kPhaseIsotropic = 0u;

@@ -63,8 +63,8 @@ float shadowOffset(uint index, vec3 position) {
                      1e-6 * (map.end - map.begin);
     if ((kShadowStores & kStoreOpaque) == 0u || map.opaque == 0ul) return rounding;
     map = ShadowMapRef(map.opaque).map;
-    return rounding + 1.5 * float(map.filterRadius + 1u) *
-                          texelSize(map, length(position - map.origin));
+    return rounding +
+           1.5 * float(map.filterRadius + 1u) * texelSize(map, length(position - map.origin));
 }
 
 #endif

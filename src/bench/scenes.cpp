@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bench/scene_parts.hpp>
 #include <bench/scenes.hpp>
-#include <random>
 
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 12> kScenes = {{
+constexpr std::array<SceneInfo, 21> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -22,20 +22,18 @@ constexpr std::array<SceneInfo, 12> kScenes = {{
     {"mixed_10k_15", "10 000 spheres of 15 pixels radius, of two media that mix where they overlap"},
     {"mixed_10k_64", "10 000 spheres of 64 pixels radius, likewise"},
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
+    {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
+    {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
+    {"glass_bars", "two layers of coloured glass bars, crossed (McGuire, Mara 2016, figure 2)"},
+    {"frosted_panes", "panes of falling collimation before a row of spheres (figure 3)"},
+    {"foggy_street", "a street at night in fog with lamps (figure 1)"},
+    {"smoke_and_glass", "smoke through and behind panes and solid glass (figure 12)"},
+    {"plume_100k", "a smoke plume of 100 000 particles"},
+    {"engine", "many close shells of partial coverage (figure 9)"},
+    {"mixed", "smoke, foliage cards, ribbons, window panes and sheer cloth"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
-
-/// Numbers in [0, 1) that are the same with every standard library.
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : mEngine(seed) {}
-    double uniform() { return static_cast<double>(mEngine() >> 11) * 0x1p-53; }
-    double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-
-  private:
-    std::mt19937_64 mEngine;
-};
 
 scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     scene::Mesh mesh;
@@ -48,16 +46,6 @@ scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     mesh.indices = {0, 1, 2, 0, 2, 3};
     mesh.material = material;
     return mesh;
-}
-
-void addDaylight(scene::Scene& scene) {
-    scene::Light ambient;
-    ambient.color = dvec3(0.4, 0.45, 0.5);
-    scene::Light sun;
-    sun.type = scene::LightType::Directional;
-    sun.color = dvec3(2, 1.9, 1.7);
-    sun.direction = glm::normalize(dvec3(0.6, -0.7, -0.39));
-    scene.lights = {ambient, sun};
 }
 
 NamedScene makeNamedLayers(int layerCount, ivec2 size) {
@@ -91,6 +79,9 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "mixed_10k_15") return {{std::string(name), makeSpheres(10'000, 15, 2)}};
     if (name == "mixed_10k_64") return {{std::string(name), makeSpheres(10'000, 64, 2)}};
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
+    if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
+    if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
+    if (auto scene = makeTransparencyScene(name)) return {{std::string(name), *std::move(scene)}};
     return makeLayerScenes(name);
 }
 
@@ -171,6 +162,90 @@ scene::Scene makeSpheres(int count, double radiusPixels, int mediumCount) {
         sphere.density = 0.4 / (2 * sphere.radius);
         sphere.medium = static_cast<std::uint32_t>(i % mediumCount);
         scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+namespace {
+
+scene::Scene makeSunlitScene() {
+    scene::Scene scene;
+    scene.image = {64, 64, 1};
+    scene.camera.position = dvec3(0, 0, 4);
+    scene::Light sun;
+    sun.type = scene::LightType::Directional;
+    sun.color = dvec3(3);
+    sun.direction = glm::normalize(dvec3(0.05, -1, 0.02));
+    sun.shadow = "visibility";
+    scene.lights = {sun};
+    return scene;
+}
+
+/// Squares in the XZ plane of edge 2 `radius`, texture from corner to corner.
+void addSquare(const dvec3& center, double radius, scene::Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const vec2 corner : {vec2(0, 0), vec2(0, 1), vec2(1, 1), vec2(1, 0)}) {
+        const dvec3 offset(2 * corner.x - 1, 0, 2 * corner.y - 1);
+        mesh.positions.emplace_back(center + radius * offset);
+        mesh.normals.emplace_back(0, 1, 0);
+        mesh.uvs.push_back(corner);
+    }
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+}
+
+std::shared_ptr<const scene::Texture> makeSoftDisc(int size) {
+    auto texture = std::make_shared<scene::Texture>();
+    texture->name = "soft disc";
+    texture->width = texture->height = size;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const dvec2 p = (dvec2(x, y) + 0.5) * (2.0 / size) - 1.0;
+            const double q = std::max(1 - glm::dot(p, p), 0.0);
+            texture->texels.emplace_back(1, 1, 1, static_cast<float>(q * q));
+        }
+    return texture;
+}
+
+}  // namespace
+
+scene::Scene makeShadowPanes() {
+    scene::Scene scene = makeSunlitScene();
+    const dvec3 colors[3] = {{0.9, 0.3, 0.2}, {0.3, 0.8, 0.4}, {0.4, 0.5, 0.9}};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        scene::Material material;
+        material.name = fmt::format("pane {}", i);
+        material.type = scene::MaterialType::Thin;
+        material.coverage = 0.7;
+        material.transmission = colors[i];
+        scene.materials.push_back(material);
+        scene::Mesh mesh;
+        mesh.material = i;
+        addSquare(dvec3(0, 0.5 - 0.5 * i, 0), 1, mesh);
+        scene.meshes.push_back(mesh);
+    }
+    return scene;
+}
+
+scene::Scene makeShadowDiscs(int count) {
+    constexpr int kColors = 16, kTexels = 64;
+    scene::Scene scene = makeSunlitScene();
+    const auto texture = makeSoftDisc(kTexels);
+    Random random(static_cast<std::uint64_t>(count));
+    for (std::uint32_t i = 0; i < kColors; ++i) {
+        scene::Material material;
+        material.name = fmt::format("disc {}", i);
+        material.type = scene::MaterialType::Thin;
+        material.coverage = 0.6;
+        const double r = random.uniform(), g = random.uniform(), b = random.uniform();
+        material.transmission = dvec3(r, g, b);
+        material.colorTexture = texture;
+        scene.materials.push_back(material);
+        scene.meshes.emplace_back().material = i;
+    }
+    for (int i = 0; i < count; ++i) {
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1),
+                     z = random.uniform(-1, 1);
+        addSquare(dvec3(x, y, z), 0.12, scene.meshes[static_cast<std::size_t>(i % kColors)]);
     }
     return scene;
 }

@@ -41,4 +41,11 @@ scene::Scene makeNestedSpheres(int count);
 /// media of different albedos.
 scene::Scene makeSpheres(int count, double radiusPixels, int mediumCount = 1);
 
+/// Three coloured panes, one over the other, across a sun overhead that casts shadows.
+scene::Scene makeShadowPanes();
+
+/// `count` discs of radius 0.12 whose coverage falls off to their rims, of many colours, at random
+/// places in a cube of 2 m under the same sun.
+scene::Scene makeShadowDiscs(int count);
+
 }  // namespace brume::bench

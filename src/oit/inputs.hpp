@@ -17,7 +17,10 @@ struct Needs {
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
     bool varyingLight = false;        ///< point or spot lights, or shadows
-    bool colouredExtinction = false;  ///< extinction or transmission differs between channels
+    bool solids = false;              ///< closed meshes among the surfaces
+    bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
+    bool colouredSurfaces = false;    ///< transmission of thin surfaces does
+    bool diffusion = false;           ///< thin surfaces with a collimation below 1
     bool oneMedium = false;  ///< one medium and one tint in the whole scene
     bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
                              ///< nothing but their summed depth
@@ -33,6 +36,7 @@ struct SurfaceDraw {
     std::uint32_t mesh = 0;      ///< index into the meshes
     std::uint32_t material = 0;  ///< index into the materials
     std::uint32_t vertexCount = 0;
+    bool isSolid = false;
     const gpu::Image* colorTexture = nullptr;
     const gpu::Image* emissionTexture = nullptr;
 };

@@ -13,11 +13,20 @@ namespace {
 
 bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
 
+void addThinNeeds(const scene::Material& material, oit::Needs& needs) {
+    const bool transmits = material.transmission != dvec3(0);
+    if (!isGrey(material.transmission) || (transmits && material.colorTexture))
+        needs.colouredSurfaces = true;
+    if (material.collimation < 1) needs.diffusion = true;
+}
+
 void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
     for (const scene::Mesh& mesh : scene.meshes) {
         const scene::Material& material = scene.materials[mesh.material];
         if (material.type == scene::MaterialType::Opaque) continue;
         needs.surfaces = true;
+        if (material.type == scene::MaterialType::Solid) needs.solids = true;
+        if (material.type == scene::MaterialType::Thin) addThinNeeds(material, needs);
         if (material.type == scene::MaterialType::Solid &&
             !isGrey(material.absorption + material.scattering))
             needs.colouredExtinction = true;
@@ -102,10 +111,13 @@ std::string describe(const oit::Needs& needs) {
     return "needs\n" + line("spheres", needs.spheres, "soft spheres of particles or the scene") +
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
+           line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
            line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
+           line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
            line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
            line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
            line("orthographic", needs.orthographic, "parallel rays") +

@@ -231,8 +231,7 @@ std::vector<scene::MediumSphere> Renderer::readParticles() const {
     return mImpl->effects.readSpheres(mImpl->submitter);
 }
 
-std::vector<vec3> Renderer::probeShadows(std::uint32_t light,
-                                         std::span<const dvec3> positions) const {
+ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {
     std::vector<vec3> relative;
     for (const dvec3& position : positions)
         relative.push_back(vec3(position - mImpl->scene.camera().position));
@@ -243,7 +242,20 @@ std::vector<vec3> Renderer::probeShadows(std::uint32_t light,
         mImpl->timers.reset(commands);
         frame.execute(commands, &mImpl->timers);
     });
-    return probe.read();
+    ShadowSamples samples{.values = probe.read()};
+    for (const gpu::ScopeTime& scope : mImpl->timers.read()) {
+        if (scope.name == "shadow.probe")
+            samples.sampleMs += scope.timeMs;
+        else if (scope.name.starts_with("shadow.") && scope.name != "shadow.probe_read")
+            samples.buildMs += scope.timeMs;
+    }
+    if (!mImpl->shadows) return samples;
+    const shadows::Footprint footprint = mImpl->shadows->footprint(light);
+    samples.bytesPerTexel = footprint.bytesPerTexel;
+    samples.footprint = footprint.reach;
+    samples.right = footprint.right;
+    samples.up = footprint.up;
+    return samples;
 }
 
 std::string Renderer::explain() const {

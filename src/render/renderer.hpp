@@ -55,6 +55,17 @@ struct Result {
     std::optional<double> errorBound;  ///< the method's, see OitMethod::errorBound()
 };
 
+struct ShadowSamples {
+    std::vector<vec3> values;      ///< in [0, 1]
+    double buildMs = 0;            ///< all passes that build maps, on the device
+    double sampleMs = 0;           ///< asking at all positions
+    double bytesPerTexel = 0;      ///< of the light's own map
+    /// The value at a point is an average under a tent this wide to either side of it, along two
+    /// directions across the light; 0 where the map has no texels. Directional lights only.
+    double footprint = 0;
+    dvec3 right{0}, up{0};
+};
+
 /// One scene on one device. Not thread-safe. Owns all its GPU objects; the device must outlive it.
 /// As the first host of the library it submits and waits itself.
 class Renderer {
@@ -72,9 +83,9 @@ class Renderer {
     /// Particles as simulated on the device, read back: for the reference.
     std::vector<scene::MediumSphere> readParticles() const;
 
-    /// What the shadow maps say at world positions: the share of a light (counted without the
-    /// ambient ones) that arrives there, per channel.
-    std::vector<vec3> probeShadows(std::uint32_t light, std::span<const dvec3> positions) const;
+    /// Builds the shadow maps and asks them at world positions: the share of a light (counted
+    /// without the ambient ones) that arrives there, per channel.
+    ShadowSamples probeShadows(std::uint32_t light, std::span<const dvec3> positions) const;
 
     /// Needs, passes, targets and bytes per pixel, as text for --explain.
     std::string explain() const;

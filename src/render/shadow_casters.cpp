@@ -37,6 +37,21 @@ bool castsColour(const scene::Material& material) {
 
 }  // namespace
 
+Box3 findTranslucentBounds(const PreparedScene& prepared,
+                           std::span<const scene::MediumSphere> particles) {
+    Box3 bounds;
+    for (const scene::MediumSphere& sphere : prepared.spheres) extend(bounds, sphere);
+    for (const scene::MediumSphere& sphere : particles) extend(bounds, sphere);
+    for (const volumes::VolumeGrid& grid : prepared.volumes)
+        if (!grid.isEmpty()) bounds.extend(grid.worldBounds());
+    for (const scene::Mesh& mesh : prepared.scene.meshes) {
+        if (prepared.scene.materials[mesh.material].type == scene::MaterialType::Opaque) continue;
+        for (const vec3& position : mesh.positions)
+            bounds.extend(transformPoint(mesh.worldFromObject, dvec3(position)));
+    }
+    return bounds;
+}
+
 ShadowCasters::ShadowCasters(gpu::Submitter& submitter, const PreparedScene& prepared,
                              const GpuScene& device,
                              std::span<const scene::MediumSphere> particles) {
@@ -51,22 +66,13 @@ ShadowCasters::ShadowCasters(gpu::Submitter& submitter, const PreparedScene& pre
     mCasters.volumes = inputs.volumes;
     mCasters.sphereCount = inputs.sphereCount;
     mCasters.boxCount = inputs.boxCount;
-    addMedia(prepared, particles);
+    mCasters.translucentBounds = findTranslucentBounds(prepared, particles);
+    for (const scene::Medium& medium : prepared.scene.media)
+        if (!isGrey(medium.extinction)) mCasters.isColoured = true;
     uploadTriangles(submitter, prepared);
     uploadMaterials(submitter, prepared);
     mCasters.triangles = &mTriangles;
     mCasters.materials = &mMaterials;
-}
-
-void ShadowCasters::addMedia(const PreparedScene& prepared,
-                             std::span<const scene::MediumSphere> particles) {
-    for (const scene::MediumSphere& sphere : prepared.spheres)
-        extend(mCasters.translucentBounds, sphere);
-    for (const scene::MediumSphere& sphere : particles) extend(mCasters.translucentBounds, sphere);
-    for (const volumes::VolumeGrid& grid : prepared.volumes)
-        if (!grid.isEmpty()) mCasters.translucentBounds.extend(grid.worldBounds());
-    for (const scene::Medium& medium : prepared.scene.media)
-        if (!isGrey(medium.extinction)) mCasters.isColoured = true;
 }
 
 void ShadowCasters::uploadTriangles(gpu::Submitter& submitter, const PreparedScene& prepared) {
@@ -83,7 +89,7 @@ void ShadowCasters::uploadTriangles(gpu::Submitter& submitter, const PreparedSce
                 const std::uint32_t index = mesh.indices[i + c];
                 const dvec3 world =
                     transformPoint(mesh.worldFromObject, dvec3(mesh.positions[index]));
-                (isOpaque ? mCasters.opaqueBounds : mCasters.translucentBounds).extend(world);
+                if (isOpaque) mCasters.opaqueBounds.extend(world);
                 corners[c] = vec3(world - mCasters.origin);
                 uvs[c] = mesh.uvs[index];
             }
@@ -118,13 +124,13 @@ void ShadowCasters::uploadMaterials(gpu::Submitter& submitter, const PreparedSce
         data.alphaCutoff = static_cast<float>(material.alphaCutoff);
         data.ior = static_cast<float>(material.ior);
         const scene::Texture* texture = material.colorTexture.get();
-        const bool usesTexture = texture && (material.type == scene::MaterialType::Thin ||
-                                             material.alphaCutoff >= 0);
+        const bool usesTexture =
+            texture && (material.type == scene::MaterialType::Thin || material.alphaCutoff >= 0);
         if (!usesTexture) continue;
         gpu::Buffer& buffer = mTextures[texture];
         if (!buffer)
-            buffer = makeArray(submitter, "render.shadow_texture " + texture->name,
-                               texture->texels);
+            buffer =
+                makeArray(submitter, "render.shadow_texture " + texture->name, texture->texels);
         data.textureSize = {static_cast<std::uint32_t>(texture->width),
                             static_cast<std::uint32_t>(texture->height)};
         data.texture = buffer.deviceAddress();

@@ -9,6 +9,10 @@
 
 namespace brume::render {
 
+/// World box of the media and of the thin and solid surfaces.
+Box3 findTranslucentBounds(const PreparedScene& scene,
+                           std::span<const scene::MediumSphere> particles);
+
 /// Uploads the triangles and materials of a scene for shadow maps; media are those of the GpuScene.
 class ShadowCasters {
   public:
@@ -21,7 +25,6 @@ class ShadowCasters {
     std::uint64_t bytes() const;
 
   private:
-    void addMedia(const PreparedScene& scene, std::span<const scene::MediumSphere> particles);
     void uploadTriangles(gpu::Submitter& submitter, const PreparedScene& scene);
     void uploadMaterials(gpu::Submitter& submitter, const PreparedScene& scene);
 

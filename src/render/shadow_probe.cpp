@@ -22,10 +22,9 @@ ShadowProbe::ShadowProbe(gpu::Submitter& submitter, const oit::Needs& needs, std
     gpu::Device& device = submitter.device();
     const std::uint64_t bytes = positions.size_bytes();
     mResults = {device, {.name = "shadow.probe.results", .bytes = bytes}};
-    mResultsRead = {device,
-                    {.name = "shadow.probe.results_read",
-                     .bytes = bytes,
-                     .memory = gpu::MemoryKind::Readback}};
+    mResultsRead = {
+        device,
+        {.name = "shadow.probe.results_read", .bytes = bytes, .memory = gpu::MemoryKind::Readback}};
     submitter.submitAndWait("upload probe", [&](gpu::Commands& commands) {
         mPositions = gpu::makeBuffer(commands, "shadow.probe.positions", positions);
     });

@@ -27,8 +27,8 @@ class Pattern {
         const int px = index % mSize, py = index / mSize;
         for (int y = 0; y < mSize; ++y)
             for (int x = 0; x < mSize; ++x)
-                mEnergy[y * mSize + x] += sign * mKernel[(y - py + mSize) % mSize * mSize +
-                                                         (x - px + mSize) % mSize];
+                mEnergy[y * mSize + x] +=
+                    sign * mKernel[(y - py + mSize) % mSize * mSize + (x - px + mSize) % mSize];
     }
 
     /// The set place with most energy, or the free one with least.

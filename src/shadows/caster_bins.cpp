@@ -64,14 +64,13 @@ CasterBins::Set CasterBins::makeSet(std::uint32_t kind, std::uint32_t first, std
     set.order = makeUints(*mDevice, "shadow.bins.order", count);
     set.counts = makeUints(*mDevice, "shadow.bins.counts", count + 1);
     set.sums = makeUints(*mDevice, "shadow.bins.sums", gpu::PrefixSum::sumCount(count + 1));
-    set.total = {
-        *mDevice,
-        {.name = "shadow.bins.total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
+    set.total = {*mDevice,
+                 {.name = "shadow.bins.total", .bytes = 4, .memory = gpu::MemoryKind::Readback}};
     if (count == 0) return set;
-    set.identity = makePipeline(*mDevice, "shadow.bins.identity", spv::shadows_bins_order_comp,
-                                {kind, 1});
-    set.distance = makePipeline(*mDevice, "shadow.bins.distance", spv::shadows_bins_order_comp,
-                                {kind, 0});
+    set.identity =
+        makePipeline(*mDevice, "shadow.bins.identity", spv::shadows_bins_order_comp, {kind, 1});
+    set.distance =
+        makePipeline(*mDevice, "shadow.bins.distance", spv::shadows_bins_order_comp, {kind, 0});
     set.count_ =
         makePipeline(*mDevice, "shadow.bins.count", spv::shadows_bins_pairs_comp, {kind, 0});
     set.write =

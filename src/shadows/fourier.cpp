@@ -19,8 +19,8 @@ class Fourier final : public ShadowStore {
     Fourier(gpu::Device& device, std::uint32_t coefficientCount)
         : mDevice(&device),
           mCoefficientCount(coefficientCount),
-          mBuild(makeMapPipeline(device, "shadow.fourier.build",
-                                 spv::shadows_fourier_build_comp)) {}
+          mBuild(makeMapPipeline(device, "shadow.fourier.build", spv::shadows_fourier_build_comp)) {
+    }
 
     const StoreInfo& info() const override;
     void allocate(shader::ShadowMap& map) override {

@@ -27,13 +27,20 @@ void setAxes(const Axes& axes, shader::ShadowMap& map) {
     map.forward = vec3(axes.forward);
 }
 
-void fitDirectional(const Axes& axes, const Box3& bounds, const dvec3& origin,
+void fitDirectional(const Axes& axes, const Box3& bounds, const Focus& focus, const dvec3& origin,
                     std::uint32_t border, shader::ShadowMap& map) {
     Box3 box;
     for (int c = 0; c < 8; ++c) {
         const dvec3 p(c & 1 ? bounds.hi.x : bounds.lo.x, c & 2 ? bounds.hi.y : bounds.lo.y,
                       c & 4 ? bounds.hi.z : bounds.lo.z);
         box.extend(dvec3(glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, axes.forward)));
+    }
+    if (focus.radius > 0) {
+        const dvec2 at(glm::dot(focus.center, axes.right), glm::dot(focus.center, axes.up));
+        for (int i = 0; i < 2; ++i) {
+            box.lo[i] = std::min(std::max(box.lo[i], at[i] - focus.radius), box.hi[i]);
+            box.hi[i] = std::max(std::min(box.hi[i], at[i] + focus.radius), box.lo[i]);
+        }
     }
     const dvec3 size = box.size(), center = box.center();
     const double widest = std::max({size.x, size.y, 1e-6 * size.z, 1e-12});
@@ -48,7 +55,8 @@ void fitDirectional(const Axes& axes, const Box3& bounds, const dvec3& origin,
     map.extent = static_cast<float>(extent);
     map.begin = 0;
     map.end = static_cast<float>(size.z + 2 * margin);
-    map.stepLength = static_cast<float>(std::max(widest, size.z) / kStepsPerMap);
+    const double longest = focus.radius > 0 ? widest : std::max(widest, size.z);
+    map.stepLength = static_cast<float>(longest / kStepsPerMap);
 }
 
 /// Distances from a point to a box.
@@ -65,15 +73,14 @@ std::uint32_t faceCountFor(const scene::Light& light) {
     return light.type == scene::LightType::Spot && light.outerAngle <= kWidestSingleFace ? 1 : 6;
 }
 
-void fitMap(const scene::Light& light, const Box3& bounds, const dvec3& origin,
+void fitMap(const scene::Light& light, const Box3& bounds, const Focus& focus, const dvec3& origin,
             std::uint32_t border, shader::ShadowMap& map) {
     const bool isDirectional = light.type == scene::LightType::Directional;
     map.isDirectional = isDirectional;
     map.faceCount = faceCountFor(light);
-    const Axes axes =
-        map.faceCount == 1 ? makeAxes(light.direction) : makeAxes(dvec3(0, 0, 1));
+    const Axes axes = map.faceCount == 1 ? makeAxes(light.direction) : makeAxes(dvec3(0, 0, 1));
     setAxes(axes, map);
-    if (isDirectional) return fitDirectional(axes, bounds, origin, border, map);
+    if (isDirectional) return fitDirectional(axes, bounds, focus, origin, border, map);
 
     const double tangent = map.faceCount == 1 ? std::tan(light.outerAngle) : 1.0;
     const double inner = std::max(map.resolution - 2.0 * border, 1.0);
@@ -83,7 +90,9 @@ void fitMap(const scene::Light& light, const Box3& bounds, const dvec3& origin,
     map.begin = static_cast<float>(0.999 * nearest);
     map.end = static_cast<float>(1.001 * farthest + 1e-6);
     const dvec3 size = bounds.size();
-    map.stepLength = static_cast<float>(std::max({size.x, size.y, size.z}) / kStepsPerMap);
+    const double longest = std::max({size.x, size.y, size.z});
+    map.stepLength = static_cast<float>(
+        (focus.radius > 0 ? std::min(2 * focus.radius, longest) : longest) / kStepsPerMap);
 }
 
 }  // namespace brume::shadows

@@ -22,8 +22,7 @@ class Opaque final : public ShadowStore {
 
     const StoreInfo& info() const override;
     void allocate(shader::ShadowMap& map) override {
-        mDistances = {*mDevice,
-                      {.name = "shadow.opaque.distances", .bytes = 4 * texelCount(map)}};
+        mDistances = {*mDevice, {.name = "shadow.opaque.distances", .bytes = 4 * texelCount(map)}};
         map.texels = mDistances.deviceAddress();
     }
     void declare(frame::FrameBuilder& frame, const MapBuild& build) const override {

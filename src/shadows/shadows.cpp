@@ -18,6 +18,7 @@ struct MapSettings {
     std::uint32_t resolution = 0;
     std::uint32_t opaqueResolution = 0;
     std::uint32_t opaqueFilter = 0;
+    Focus focus;
     bool isKept = false;
 };
 
@@ -36,6 +37,10 @@ MapSettings takeMapSettings(scene::Settings& settings, std::uint32_t faceCount) 
     map.resolution = resolution("resolution");
     map.opaqueResolution = resolution("opaqueResolution");
     map.opaqueFilter = static_cast<std::uint32_t>(reader.integer("opaqueFilter", 1, 0, 16));
+    map.focus.center = {reader.number("focusX", 0, -1e9, 1e9),
+                        reader.number("focusY", 0, -1e9, 1e9),
+                        reader.number("focusZ", 0, -1e9, 1e9)};
+    map.focus.radius = reader.number("focusRadius", 0, 0, 1e9);
     map.isKept = reader.boolean("keep", false);
     return map;
 }
@@ -57,6 +62,11 @@ std::span<const scene::SettingInfo> listMapSettings() {
         {"opaqueResolution", "8 .. 4096 texels, multiple of 8", "512 (256 per face of a cube)",
          "edge of the map of opaque casters"},
         {"opaqueFilter", "0 .. 16 texels", "1", "radius of the tent over the opaque map"},
+        {"focusX", "m", "0",
+         "centre of the part of the world that a directional light's map shows"},
+        {"focusY", "m", "0", "likewise"},
+        {"focusZ", "m", "0", "likewise"},
+        {"focusRadius", "m", "0", "how far that part reaches; 0: all casters; beyond it is light"},
         {"keep", "true, false", "false", "build once and keep while the scene does not move"}};
     return kSettings;
 }
@@ -100,7 +110,7 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     data.resolution = store == "opaque" ? own.opaqueResolution : own.resolution;
     data.filterRadius = store == "opaque" ? own.opaqueFilter : 0;
     map->store->allocate(data);
-    fitMap(light, bounds, mCasters.origin, data.filterRadius + 2, data);
+    fitMap(light, bounds, own.focus, mCasters.origin, data.filterRadius + 2, data);
     data.spheres = mCasters.spheres->deviceAddress();
     data.boxes = mCasters.boxes->deviceAddress();
     data.volumes = mCasters.volumes->deviceAddress();
@@ -119,8 +129,7 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
     if (maps.empty()) return;
     const auto uploadMaps = [&] {
         submitter.submitAndWait("upload shadow maps", [&](gpu::Commands& commands) {
-            for (Map* map : maps)
-                gpu::upload(commands, map->buffer, std::span(&map->data, 1));
+            for (Map* map : maps) gpu::upload(commands, map->buffer, std::span(&map->data, 1));
         });
     };
     uploadMaps();
@@ -132,9 +141,9 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
         if (!light.own) light.own = std::move(light.opaque);
         if (!light.own) continue;
         // A light without anything translucent before it has the opaque map alone.
-        const Map* opaque = light.opaque                                      ? light.opaque.get()
+        const Map* opaque = light.opaque                                    ? light.opaque.get()
                             : light.own->data.store == shader::kStoreOpaque ? light.own.get()
-                                                                              : nullptr;
+                                                                            : nullptr;
         if (opaque) light.own->data.opaque = opaque->buffer.deviceAddress();
     }
     uploadMaps();
@@ -181,11 +190,18 @@ std::map<std::string, std::uint64_t> Shadows::bytes() const {
     return kinds;
 }
 
-std::uint64_t Shadows::texelCount() const {
-    std::uint64_t count = 0;
-    for (const LightMaps& light : mLights)
-        if (light.own) count += shadows::texelCount(light.own->data);
-    return count;
+Footprint Shadows::footprint(std::uint32_t light) const {
+    Footprint footprint;
+    const Map* map = mLights[light].own.get();
+    if (!map) return footprint;
+    const shader::ShadowMap& data = map->data;
+    footprint.bytesPerTexel =
+        static_cast<double>(map->store->bytes()) / static_cast<double>(texelCount(data));
+    if (!data.isDirectional || data.store == shader::kStoreExact) return footprint;
+    footprint.reach = 2.0 * data.extent / data.resolution * (data.filterRadius + 1);
+    footprint.right = dvec3(data.right);
+    footprint.up = dvec3(data.up);
+    return footprint;
 }
 
 }  // namespace brume::shadows

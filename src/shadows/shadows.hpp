@@ -15,12 +15,19 @@
 
 namespace brume::shadows {
 
+/// Over what a map averages at a point: a tent that reaches so far to either side.
+struct Footprint {
+    double reach = 0;  ///< m; 0: not at all, or not the same everywhere
+    dvec3 right{0}, up{0};
+    double bytesPerTexel = 0;  ///< of the store
+};
+
 class Shadows {
   public:
     /// `lights`: those of the shaders' array, in its order; each with its own store and settings,
     /// to which `overrides` are added. Throws an input Error for an unknown store or setting.
-    Shadows(gpu::Submitter& submitter, const Casters& casters,
-            std::span<const scene::Light> lights, const scene::Settings& overrides);
+    Shadows(gpu::Submitter& submitter, const Casters& casters, std::span<const scene::Light> lights,
+            const scene::Settings& overrides);
 
     using DeclareFunction = std::function<void(frame::FrameBuilder&, frame::BufferRef spheres)>;
     /// Runs one frame that ends with the given passes and returns when the device has finished it.
@@ -35,8 +42,7 @@ class Shadows {
     std::vector<VkDeviceAddress> addresses() const;
     /// Device memory by kind; empty where no light has a shadow.
     std::map<std::string, std::uint64_t> bytes() const;
-    /// Texels of all maps of light-space stores, opaque ones apart.
-    std::uint64_t texelCount() const;
+    Footprint footprint(std::uint32_t light) const;
 
   private:
     struct Map {
@@ -44,7 +50,7 @@ class Shadows {
         std::unique_ptr<CasterBins> bins;
         shader::ShadowMap data{};
         gpu::Buffer buffer;
-        bool isKept = false;   // once built, while nothing moves
+        bool isKept = false;  // once built, while nothing moves
         bool isBuilt = false;
     };
     struct LightMaps {

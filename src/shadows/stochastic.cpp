@@ -44,8 +44,8 @@ std::vector<scene::SettingInfo> listStochasticSettings() {
 StochasticMap::StochasticMap(gpu::Device& device, const StochasticSettings& settings)
     : mDevice(&device),
       mSettings(settings),
-      mBuild(makeMapPipeline(device, "shadow.stochastic.build",
-                             spv::shadows_stochastic_build_comp)) {}
+      mBuild(
+          makeMapPipeline(device, "shadow.stochastic.build", spv::shadows_stochastic_build_comp)) {}
 
 void StochasticMap::allocate(shader::ShadowMap& map) {
     map.count = mSettings.samples;
@@ -86,9 +86,7 @@ class Stochastic final : public ShadowStore {
         mMap.declare(frame, build);
         if (mTotal) mTotal->declare(frame, build);
     }
-    std::uint64_t bytes() const override {
-        return mMap.bytes() + (mTotal ? mTotal->bytes() : 0);
-    }
+    std::uint64_t bytes() const override { return mMap.bytes() + (mTotal ? mTotal->bytes() : 0); }
 
   private:
     StochasticMap mMap;
@@ -108,8 +106,8 @@ const StoreInfo& info() {
             .limits = "shadows are as soft as the filter is wide",
             .bit = shader::kStoreStochastic,
             .settings = listStochasticSettings()};
-        made.settings.push_back({"alphaCorrection", "true, false", "true",
-                                 "correct by the total transmittance"});
+        made.settings.push_back(
+            {"alphaCorrection", "true, false", "true", "correct by the total transmittance"});
         return made;
     }();
     return kInfo;

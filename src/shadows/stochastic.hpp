@@ -7,8 +7,8 @@
 namespace brume::shadows {
 
 struct StochasticSettings {
-    std::uint32_t samples = 1;      ///< per texel, 1 .. 8
-    bool isIndependent = false;     ///< samples of a texel are not stratified
+    std::uint32_t samples = 1;       ///< per texel, 1 .. 8
+    bool isIndependent = false;      ///< samples of a texel are not stratified
     std::uint32_t filterRadius = 7;  ///< texels
 };
 

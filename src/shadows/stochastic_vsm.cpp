@@ -32,9 +32,7 @@ class StochasticVsm final : public ShadowStore {
     const StoreInfo& info() const override;
     void allocate(shader::ShadowMap& map) override;
     void declare(frame::FrameBuilder& frame, const MapBuild& build) const override;
-    std::uint64_t bytes() const override {
-        return mMap.bytes() + mRows.bytes() + mMoments.bytes();
-    }
+    std::uint64_t bytes() const override { return mMap.bytes() + mRows.bytes() + mMoments.bytes(); }
 
   private:
     void declareBlur(frame::FrameBuilder& frame, const MapBuild& build, bool isSecond,

@@ -83,8 +83,7 @@ TEST_F(ShadowExact, LitImage_EqualsReference) {
     double largest = 0;
     for (std::size_t i = 0; i < expected.image.pixels.size(); ++i) {
         if (actual.triangles[i] != expected.triangles[i]) continue;
-        const dvec3 d =
-            glm::abs(dvec3(actual.image.pixels[i]) - dvec3(expected.image.pixels[i]));
+        const dvec3 d = glm::abs(dvec3(actual.image.pixels[i]) - dvec3(expected.image.pixels[i]));
         largest = std::max({largest, d.x, d.y, d.z});
     }
     EXPECT_LE(largest, 1e-4);

@@ -30,8 +30,9 @@ TEST_F(ShadowHardCases, EmptyScene_IsLit) {
 
 TEST_F(ShadowHardCases, ParticleLitFromTheFront_DoesNotShadowItsFront) {
     for (const shadows::StoreInfo& store : shadows::listStores()) {
-        if (store.name == "total") continue;  // is the shadow of everything, wherever
+        if (store.name == "total") continue;           // is the shadow of everything, wherever
         if (store.name == "stochastic_vsm") continue;  // its variance reaches in front
+        if (store.name == "fourier") continue;         // and so do the waves of its series
         SCOPED_TRACE(store.name);
         TestScene s;
         addSun(s, std::string(store.name), dvec3(0.2, -1, 0.1));
@@ -70,10 +71,10 @@ TEST_F(ShadowHardCases, DepthRangeOf1e5_IsSane) {
     for (const shadows::StoreInfo& store : shadows::listStores()) {
         SCOPED_TRACE(store.name);
         s.scene.lights[0].shadow = store.name;
-        EXPECT_EQ(measureError(s, scatterPoints(3, 500, dvec3(-1), dvec3(1)),
-                               {{"resolution", "128"}})
-                      .outOfRange,
-                  0u);
+        EXPECT_EQ(
+            measureError(s, scatterPoints(3, 500, dvec3(-1), dvec3(1)), {{"resolution", "128"}})
+                .outOfRange,
+            0u);
     }
 }
 

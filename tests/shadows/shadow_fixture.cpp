@@ -7,9 +7,9 @@ namespace brume::test {
 std::vector<vec3> ShadowTest::probe(const render::PreparedScene& scene,
                                     std::span<const dvec3> points,
                                     const scene::Settings& settings) {
-    render::Options options{.method = "unordered"};
+    render::Options options{.method = "unordered", .settings = {{"shadow.resolution", "256"}}};
     for (const auto& [key, value] : settings) options.settings["shadow." + key] = value;
-    return render::Renderer(device(), scene, options, log()).probeShadows(0, points);
+    return render::Renderer(device(), scene, options, log()).probeShadows(0, points).values;
 }
 
 std::vector<dvec3> ShadowTest::computeExact(const render::PreparedScene& scene,
@@ -19,9 +19,9 @@ std::vector<dvec3> ShadowTest::computeExact(const render::PreparedScene& scene,
     const scene::Light& light = scene.scene.lights.front();
     std::vector<dvec3> exact;
     for (const dvec3& point : points)
-        exact.push_back(tracer.transmittance(
-            point, light.type == scene::LightType::Directional ? point - 1e4 * light.direction
-                                                               : light.position));
+        exact.push_back(tracer.transmittance(point, light.type == scene::LightType::Directional
+                                                        ? point - 1e4 * light.direction
+                                                        : light.position));
     return exact;
 }
 

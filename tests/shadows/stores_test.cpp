@@ -59,17 +59,17 @@ TEST_F(ShadowStores, VisibilityOfTwoHomogeneousBoxes_IsExact) {
 }
 
 TEST_F(ShadowStores, VisibilityOfCloud_MoreNodesAreBetter) {
+    const TestScene s = makeCloud("visibility");
     double last = 1;
     for (const char* nodes : {"4", "8", "16"}) {
-        const TestScene s = makeCloud("visibility");
         const ProbeError inside = measureError(s, kInside, {{"nodes", nodes}});
         RecordProperty(std::string("rms_inside_") + nodes, std::to_string(inside.rms));
         EXPECT_LT(inside.rms, last);
         EXPECT_EQ(inside.outOfRange, 0u);
-        EXPECT_LE(measureError(s, kBehind, {{"nodes", nodes}}).rms, 1e-3);
         last = inside.rms;
     }
-    EXPECT_LE(last, 4e-3);
+    EXPECT_LE(last, 5e-3);
+    EXPECT_LE(measureError(s, kBehind).rms, 1e-3);
 }
 
 TEST_F(ShadowStores, Visibility_OrderOfSubmissionChangesNothing) {
@@ -117,14 +117,19 @@ TEST_F(ShadowStores, StochasticWithCorrection_IsExactBehindPanes) {
 }
 
 TEST_F(ShadowStores, StochasticSamples_ReduceTheNoise) {
-    const std::vector<dvec3> points = panePoints();
-    const TestScene s = makePanes("stochastic");
-    const double one = measureError(s, points, {{"filter", "2"}}).rms;
-    const double four = measureError(s, points, {{"filter", "2"}, {"samples", "4"}}).rms;
-    const double independent =
-        measureError(s, points, {{"filter", "2"}, {"samples", "4"}, {"mask", "independent"}}).rms;
+    const scene::Settings plain{{"filter", "2"}, {"alphaCorrection", "false"}};
+    scene::Settings stratified = plain, independent = plain;
+    stratified["samples"] = independent["samples"] = "4";
+    independent["mask"] = "independent";
+    TestScene s;
+    addSun(s, "stochastic", dvec3(0, -1, 0.001));
+    s.addMesh(scene::makePlane(dvec2(4)), s.addMaterial(makeThin(0.7, dvec3(0.5))));
+    const std::vector<dvec3> points =
+        scatterPoints(8, 2000, dvec3(-1.5, -0.6, -1.5), dvec3(1.5, -0.5, 1.5));
+    const double one = measureError(s, points, plain).rms;
+    const double four = measureError(s, points, independent).rms;
     EXPECT_LT(four, 0.75 * one);
-    EXPECT_LT(four, independent);
+    EXPECT_LT(measureError(s, points, stratified).rms, four);
 }
 
 TEST_F(ShadowStores, FourierOfCloud_GetsBetterWithCoefficients) {
@@ -153,8 +158,8 @@ TEST_F(ShadowStores, OpaqueCaster_DarkensItsShadowAndNothingElse) {
     addSun(s, "opaque", dvec3(0, -1, 0.001));
     s.addMesh(scene::makePlane(dvec2(1)), s.addMaterial(makeOpaque(dvec3(0.5))));
     s.addSphere(s.addMedium(5.0), dvec3(0, 0.5, 0), 0.3);
-    const std::vector<dvec3> shadowed = scatterPoints(9, 200, dvec3(-0.4, -1, -0.4),
-                                                      dvec3(0.4, -0.1, 0.4));
+    const std::vector<dvec3> shadowed =
+        scatterPoints(9, 200, dvec3(-0.4, -1, -0.4), dvec3(0.4, -0.1, 0.4));
     for (const vec3& t : probe(s, shadowed)) EXPECT_EQ(t, vec3(0));
     const std::vector<dvec3> lit = scatterPoints(9, 200, dvec3(-0.4, 0.1, -0.4), dvec3(2, 1, 0.4));
     for (const vec3& t : probe(s, lit)) EXPECT_EQ(t, vec3(1));
@@ -182,10 +187,10 @@ TEST_F(ShadowStores, CutOutCaster_LetsLightThroughItsHoles) {
         scene::Material card = makeThin(1, dvec3(0.5));
         card.colorTexture = texture;
         s.addMesh(scene::makePlane(dvec2(2)), s.addMaterial(card));
-        EXPECT_LE(measureError(s, scatterPoints(9, 500, dvec3(-0.8, -1, -0.8),
-                                                dvec3(0.8, -0.1, 0.8)))
-                      .max,
-                  store == std::string("exact") ? 1e-4 : 2e-2);
+        EXPECT_LE(
+            measureError(s, scatterPoints(9, 500, dvec3(-0.8, -1, -0.8), dvec3(0.8, -0.1, 0.8)))
+                .max,
+            store == std::string("exact") ? 1e-4 : 2e-2);
     }
 }
 

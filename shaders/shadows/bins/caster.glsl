@@ -48,10 +48,10 @@ void findTiles(ShadowMap map, Caster caster, uint face, out uvec2 first, out uve
     CornerBounds corners = beginCorners();
     for (uint c = 0u; c < caster.cornerCount; ++c)
         addCorner(corners, turnToFace(face, caster.corners[c]), isDirectional);
-    Bounds bounds = kCaster == kCasterSphere
-                        ? sphereBoundsInView(turnToFace(face, caster.corners[0]), caster.radius,
-                                             isDirectional)
-                        : finishCorners(corners, isDirectional);
+    Bounds bounds =
+        kCaster == kCasterSphere
+            ? sphereBoundsInView(turnToFace(face, caster.corners[0]), caster.radius, isDirectional)
+            : finishCorners(corners, isDirectional);
     const float kMargin = 0.02;  // texels; covers the rounding of the projection
     float size = float(map.resolution);
     vec2 lo = (bounds.lo / map.extent * 0.5 + 0.5) * size - kMargin;

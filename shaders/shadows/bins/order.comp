@@ -10,8 +10,8 @@ layout(constant_id = 1) const bool kByIdentity = false;
 float nearestDistance(ShadowMap map, Caster caster) {
     float nearest = 3.0e38;
     for (uint c = 0u; c < caster.cornerCount; ++c)
-        nearest = min(nearest, map.isDirectional != 0u ? caster.corners[c].z
-                                                       : length(caster.corners[c]));
+        nearest =
+            min(nearest, map.isDirectional != 0u ? caster.corners[c].z : length(caster.corners[c]));
     return max(nearest - caster.radius - (map.isDirectional != 0u ? map.begin : 0.0), 0.0);
 }
 

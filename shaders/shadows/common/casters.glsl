@@ -49,10 +49,10 @@ LocalRay shadowLocalRay(Ray ray, BoxData box, VolumeData volume) {
 // The same over one cell of a brick or one ramp of a soft box, in which the density is a cubic.
 float cellDensityLength(BoxData box, LocalRay local, float from, float to) {
     BoxDensity density = makeBoxDensity(box, local, 0.5 * (from + to));
-    float sum = 0.0;
-    for (int k = 0; k < 3; ++k)
-        sum += kShadowWeights[k] * boxDensity(density, from + (to - from) * kShadowNodes[k]);
-    return (to - from) * sum;
+    vec3 nodes = from + (to - from) * kShadowNodes;
+    return (to - from) * dot(kShadowWeights, vec3(boxDensity(density, nodes.x),
+                                                  boxDensity(density, nodes.y),
+                                                  boxDensity(density, nodes.z)));
 }
 
 float brickDensityLength(BoxData box, LocalRay local, vec2 t) {

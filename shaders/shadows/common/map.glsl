@@ -110,8 +110,6 @@ BuildTexel findBuildTexel(ShadowMap map, uint group, uint local) {
 }
 
 // Weight of the tent of radius r (2 r + 1 texels and the two that share the fraction) at an offset.
-float tentWeight(float offset, float radius) {
-    return max(radius + 1.0 - abs(offset), 0.0);
-}
+float tentWeight(float offset, float radius) { return max(radius + 1.0 - abs(offset), 0.0); }
 
 #endif

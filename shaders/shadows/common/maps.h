@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light's shadow map: its geometry, its casters and what its store has made of them; C++ and GLSL.
+// A light's shadow map: its geometry, its casters and what its store has made of them; C++ and
+// GLSL.
 #ifndef BRUME_SHADERS_SHADOWS_COMMON_MAPS_H
 #define BRUME_SHADERS_SHADOWS_COMMON_MAPS_H
 #include "../../common/shared.h"
@@ -31,9 +32,9 @@ struct ShadowMap {
     vec3 up;
     float extent;  // half the width of a face: m (directional), else at distance 1
     vec3 forward;
-    uint resolution;  // texels per edge of a face, a multiple of kMapTileSize
-    uint faceCount;   // 1, or 6: a cube
-    uint channels;    // 1 or 3
+    uint resolution;     // texels per edge of a face, a multiple of kMapTileSize
+    uint faceCount;      // 1, or 6: a cube
+    uint channels;       // 1 or 3
     uint count;          // visibility: nodes; stochastic: samples per texel; fourier: coefficients
     uint filterRadius;   // texels: tent over 2 r + 1
     float begin;         // no caster is nearer to the light,

@@ -22,7 +22,8 @@ void walkSpheres(ShadowMap map, uint tile, Ray ray) {
         uint pieces = sphere.profile == kProfileConstant ? 1u : kSmoothPieces;
         float step = (t.y - t.x) / float(pieces);
         for (uint i = 0u; i < pieces; ++i) {
-            vec2 part = vec2(t.x + float(i) * step, i + 1u < pieces ? t.x + float(i + 1u) * step : t.y);
+            vec2 part =
+                vec2(t.x + float(i) * step, i + 1u < pieces ? t.x + float(i + 1u) * step : t.y);
             takePiece(part.x, part.y, extinction * sphereDensityLength(ray, sphere, part),
                       sphere.id);
         }

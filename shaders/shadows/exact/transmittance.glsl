@@ -61,13 +61,11 @@ vec3 exactSurfaces(ShadowMap map, uint tile, Ray ray, float end, inout vec3 dept
 
 vec3 exactTransmittance(ShadowMap map, vec3 position, MapPoint point) {
     bool isDirectional = map.isDirectional != 0u;
-    Ray ray = Ray(position, isDirectional
-                                ? -map.forward
-                                : (map.origin - position) / max(point.distance, 1e-30));
+    Ray ray = Ray(position, isDirectional ? -map.forward
+                                          : (map.origin - position) / max(point.distance, 1e-30));
     float end = isDirectional ? 3.0e38 : point.distance;
     uint tile = mapTile(map, point.face, uvec2(point.texel));
-    vec3 depth =
-        exactSphereDepth(map, tile, ray, end) + exactBoxDepth(map, tile, ray, end);
+    vec3 depth = exactSphereDepth(map, tile, ray, end) + exactBoxDepth(map, tile, ray, end);
     vec3 product = exactSurfaces(map, tile, ray, end, depth);
     return product * exp(-depth);
 }

@@ -31,8 +31,7 @@ vec3 fourierTransmittance(ShadowMap map, MapPoint point) {
     for (int i = 0; i < 4; ++i) {
         ivec2 o = ivec2(i & 1, i >> 1);
         vec2 weight = mix(1.0 - f, f, vec2(o));
-        sum += weight.x * weight.y *
-               fourierTexel(map, texelIndex(map, point.face, corner + o), z);
+        sum += weight.x * weight.y * fourierTexel(map, texelIndex(map, point.face, corner + o), z);
     }
     return sum;
 }

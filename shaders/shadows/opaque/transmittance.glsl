@@ -14,7 +14,8 @@ float opaqueVisibility(ShadowMap map, MapPoint point) {
         for (int x = -radius; x <= radius + 1; ++x) {
             ivec2 texel = corner + ivec2(x, y);
             vec2 offset = vec2(texel) + 0.5 - point.texel;
-            float weight = tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
+            float weight =
+                tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
             float nearest = FloatArray(map.texels).at[texelIndex(map, point.face, texel)];
             sum += distance < nearest ? weight : 0.0;
             weights += weight;

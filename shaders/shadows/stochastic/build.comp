@@ -13,9 +13,9 @@ const uint kMaxSamples = 8u;
 ShadowMap map;
 BuildTexel texel;
 vec3 depths[kMaxSamples];
-uint openId = ~0u;              // of the medium interval that pieces belong to
-vec3 crossed;                   // its depth so far
-float limits[kMaxSamples];      // its depth at which each sample's ray ends
+uint openId = ~0u;          // of the medium interval that pieces belong to
+vec3 crossed;               // its depth so far
+float limits[kMaxSamples];  // its depth at which each sample's ray ends
 
 // PCG output function (O'Neill 2014).
 uint hashId(uint id) {
@@ -45,8 +45,8 @@ void takePiece(float t0, float t1, vec3 depth, uint id) {
     for (uint s = 0u; s < map.count; ++s)
         for (uint c = 0u; c < map.channels; ++c)
             if (crossed[c] < limits[s] && after[c] >= limits[s])
-                depths[s][c] = min(
-                    depths[s][c], mix(t0, t1, (limits[s] - crossed[c]) / max(depth[c], 1e-30)));
+                depths[s][c] =
+                    min(depths[s][c], mix(t0, t1, (limits[s] - crossed[c]) / max(depth[c], 1e-30)));
     crossed = after;
 }
 

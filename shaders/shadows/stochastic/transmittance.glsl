@@ -12,11 +12,12 @@ vec3 stochasticTransmittance(ShadowMap map, MapPoint point) {
     for (int y = -radius; y <= radius + 1; ++y)
         for (int x = -radius; x <= radius + 1; ++x) {
             vec2 offset = vec2(corner + ivec2(x, y)) + 0.5 - point.texel;
-            float weight = tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
+            float weight =
+                tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
             uint texel = texelIndex(map, point.face, corner + ivec2(x, y));
             for (uint s = 0u; s < map.count; ++s) {
-                vec3 depth = loadChannels(FloatArray(map.texels), texel * map.count + s,
-                                          map.channels);
+                vec3 depth =
+                    loadChannels(FloatArray(map.texels), texel * map.count + s, map.channels);
                 reached += weight * vec3(greaterThanEqual(depth, vec3(point.distance)));
                 behind += weight * vec3(greaterThan(depth, vec3(2.0e38)));
             }

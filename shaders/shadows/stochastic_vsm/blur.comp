@@ -21,8 +21,8 @@ vec2 momentsOf(ShadowMap map, float depth) {
 vec2 loadDepths(ShadowMap map, uint texel, uint channel) {
     vec2 sum = vec2(0);
     for (uint s = 0u; s < map.count; ++s)
-        sum += momentsOf(map, FloatArray(push.source)
-                                  .at[(texel * map.count + s) * map.channels + channel]);
+        sum += momentsOf(
+            map, FloatArray(push.source).at[(texel * map.count + s) * map.channels + channel]);
     return sum / float(map.count);
 }
 
@@ -38,7 +38,8 @@ vec2 filterLine(ShadowMap map, uint face, uvec2 cell, uint channel) {
         uint line = uint(clamp(along, 0, int(size) - 1));
         if (kIsSecond) {
             uint at = 2u * (((face * size + line) * reduced + cell.x) * map.channels + channel);
-            sum += weight * vec2(FloatArray(push.source).at[at], FloatArray(push.source).at[at + 1u]);
+            sum +=
+                weight * vec2(FloatArray(push.source).at[at], FloatArray(push.source).at[at + 1u]);
         } else {
             sum += weight * loadDepths(map, (face * size + cell.y) * size + line, channel);
         }

@@ -33,7 +33,8 @@ vec3 filterTotals(ShadowMap map, MapPoint point) {
     for (int y = -radius; y <= radius + 1; ++y)
         for (int x = -radius; x <= radius + 1; ++x) {
             vec2 offset = vec2(corner + ivec2(x, y)) + 0.5 - point.texel;
-            float weight = tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
+            float weight =
+                tentWeight(offset.x, float(radius)) * tentWeight(offset.y, float(radius));
             sum += weight * loadChannels(FloatArray(map.totals),
                                          texelIndex(map, point.face, corner + ivec2(x, y)),
                                          map.channels);

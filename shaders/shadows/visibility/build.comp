@@ -65,7 +65,8 @@ void makeRoom(uint count) {
 // that come sorted are added.
 uint insertNode(float z) {
     uint slot = nodeCount;
-    for (; slot > 0u && nodeZ[slot - 1u] > z; --slot) {}
+    for (; slot > 0u && nodeZ[slot - 1u] > z; --slot) {
+    }
     if (slot > 0u && nodeZ[slot - 1u] == z) return slot - 1u;
     vec3 depth = vec3(0);
     if (slot > 0u) {
@@ -133,6 +134,5 @@ void main() {
     while (nodeCount > map.count) removeLeastNode();
     uint stride = 1u + 2u * map.channels;
     uint first = b.index * map.count * stride;
-    for (uint k = 0u; k < map.count; ++k)
-        storeNode(first + k * stride, k, map.channels);
+    for (uint k = 0u; k < map.count; ++k) storeNode(first + k * stride, k, map.channels);
 }

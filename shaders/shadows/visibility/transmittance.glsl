@@ -24,9 +24,9 @@ vec3 curveDepth(FloatArray values, uint first, uint stride, uint channels, float
             }
             break;
         }
-        depth = channels == 1u ? vec3(values.at[node + 2u])
-                               : vec3(values.at[node + 4u], values.at[node + 5u],
-                                      values.at[node + 6u]);
+        depth = channels == 1u
+                    ? vec3(values.at[node + 2u])
+                    : vec3(values.at[node + 4u], values.at[node + 5u], values.at[node + 6u]);
         z0 = z;
     }
     return depth;

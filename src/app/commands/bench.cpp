@@ -8,9 +8,11 @@
 #include <bench/prepare.hpp>
 #include <bench/report.hpp>
 #include <bench/scenes.hpp>
+#include <bench/shadow_measure.hpp>
 #include <core/error.hpp>
 #include <oit/method_info.hpp>
 #include <scene/loader.hpp>
+#include <shadows/store_info.hpp>
 
 namespace brume::app {
 namespace {
@@ -37,28 +39,40 @@ std::vector<bench::NamedScene> findScenes(const std::string& name, const Log& lo
 }
 
 std::vector<std::string> findMethods(const std::vector<std::string>& names) {
+    std::vector<std::string> methods;
+    for (const std::string& name : names) {
+        if (name != "all") methods.push_back(name);
+        if (name == "all")
+            for (const oit::MethodInfo& info : oit::listMethods()) methods.emplace_back(info.name);
+    }
+    return methods;
+}
+
+void resize(const std::string& size, scene::Scene& scene) {
+    if (size.empty()) return;
+    const ivec2 pixels = parseSize(size);
+    scene.image.width = pixels.x;
+    scene.image.height = pixels.y;
+}
+
+std::vector<std::string> findStores(const std::vector<std::string>& names) {
     if (std::find(names.begin(), names.end(), "all") == names.end()) return names;
     std::vector<std::string> all;
-    for (const oit::MethodInfo& info : oit::listMethods()) all.emplace_back(info.name);
+    for (const shadows::StoreInfo& info : shadows::listStores())
+        if (info.name != "opaque") all.emplace_back(info.name);  // has no error but its filter
     return all;
 }
 
-/// The scene in every variant that was asked for: one per shadow store.
-std::vector<bench::NamedScene> makeVariants(const bench::NamedScene& named,
-                                            const BenchArguments& arguments) {
-    bench::NamedScene sized = named;
-    if (!arguments.size.empty()) {
-        const ivec2 size = parseSize(arguments.size);
-        sized.scene.image.width = size.x;
-        sized.scene.image.height = size.y;
-    }
-    if (arguments.shadows.empty()) return {sized};
-    std::vector<bench::NamedScene> variants;
-    for (const std::string& shadow : arguments.shadows) {
-        variants.push_back(sized);
-        bench::overrideShadows(variants.back().scene, shadow);
-    }
-    return variants;
+std::vector<bench::NamedScene> findAllScenes(const BenchArguments& arguments,
+                                             const std::vector<std::string>& fallback,
+                                             const Log& log) {
+    std::vector<bench::NamedScene> scenes;
+    for (const std::string& name : arguments.scenes.empty() ? fallback : arguments.scenes)
+        for (bench::NamedScene& found : findScenes(name, log)) {
+            resize(arguments.size, found.scene);
+            scenes.push_back(std::move(found));
+        }
+    return scenes;
 }
 
 void addLayerRates(int layerCount, std::vector<bench::Measurement>& measurements) {
@@ -78,15 +92,36 @@ void writeResults(const BenchArguments& arguments, const std::vector<bench::Meas
     if (!arguments.report.empty()) bench::writeReport(arguments.report, results);
 }
 
+void benchShadows(const BenchArguments& arguments, const Log& log) {
+    bench::ShadowMeasureOptions options;
+    options.stores = findStores(arguments.shadows);
+    options.settings = parseSettings(arguments.settings);
+    options.repeats = std::min(arguments.repeats, 5);
+    const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
+    std::vector<bench::ShadowRow> rows;
+    for (const bench::NamedScene& named :
+         findAllScenes(arguments, {"shadow_panes", "shadow_discs"}, log)) {
+        Progress progress("measuring " + named.name);
+        options.progress = progress.callback();
+        for (bench::ShadowRow& row : bench::measureShadows(
+                 *device, named.name, bench::prepareScene(named.scene, log), options, log))
+            rows.push_back(std::move(row));
+    }
+    fmt::print("{} ({})\n{}", device->info().name, device->info().driver,
+               bench::formatShadowTable(rows));
+    if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(rows));
+    checkValidation(*device, log);
+    for (const bench::ShadowRow& row : rows)
+        if (!row.failure.empty())
+            throw failure("benchmarking", row.scene + " with " + row.store, row.failure);
+}
+
 }  // namespace
 
 void runBench(const BenchArguments& arguments, const Log& log) {
-    std::vector<bench::NamedScene> scenes;
-    for (const std::string& name : arguments.scenes)
-        for (const bench::NamedScene& found : findScenes(name, log))
-            for (bench::NamedScene& variant : makeVariants(found, arguments))
-                scenes.push_back(std::move(variant));
-
+    if (!arguments.shadows.empty()) return benchShadows(arguments, log);
+    const std::vector<bench::NamedScene> scenes =
+        findAllScenes(arguments, {"layers", "spheres_1k_48"}, log);
     bench::MeasureOptions options;
     options.methods = findMethods(arguments.methods);
     options.settings = parseSettings(arguments.settings);

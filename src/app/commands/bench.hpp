@@ -10,9 +10,9 @@
 namespace brume::app {
 
 struct BenchArguments {
-    std::vector<std::string> scenes = {"layers", "spheres_1k_48"};  ///< names, demos or files
+    std::vector<std::string> scenes;  ///< names, demos or files; empty: what fits the question
     std::vector<std::string> methods = {"all"};
-    std::vector<std::string> shadows;  ///< empty: as in the scenes
+    std::vector<std::string> shadows;  ///< measure these at points, instead of methods
     std::string size;                  ///< "WxH"; empty: the scenes' own
     int repeats = 20;
     bool withError = true;
