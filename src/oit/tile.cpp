@@ -26,6 +26,8 @@
 #include <spv/oit/tile/lit_volumes.comp.float64.hpp>
 #include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/overlaps.comp.float64.hpp>
+#include <spv/oit/tile/overlaps.comp.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
 
@@ -66,13 +68,18 @@ class Tile final : public OitMethod {
     };
 
     gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
-                                      const std::vector<gpu::Binding>& own) const;
+                                      const std::vector<gpu::Binding>& own,
+                                      const std::vector<std::uint32_t>& specialization = {}) const;
     gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
                            gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
     shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
     void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
     void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
+    /// Sources are worked out once per ray: for a few media, where light is the same everywhere.
+    bool canComposite() const {
+        return !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
+    }
     void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
@@ -83,7 +90,7 @@ class Tile final : public OitMethod {
     Needs mNeeds;
     std::uint32_t mTileCount;
     MediaBins mBins;
-    Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    Group mAll, mOrdered, mVolumes, mFewMix, mManyMix;  // mAll: those that classify visits
     gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
@@ -114,6 +121,16 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                                                  spv::oit_tile_composite_comp_float64), images),
                 shader::kTileSize};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
+    if (!mNeeds.oneSource && canComposite()) {
+        const auto overlaps =
+            choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64);
+        mFewMix = {makePipeline("few_overlaps", overlaps, images,
+                                {shader::kFewIntervals, shader::kClassManyMix}),
+                   pixels};
+        mManyMix = {makePipeline("many_overlaps", overlaps, images,
+                                 {shader::kManyIntervals, shader::kClassLists}),
+                    pixels};
+    }
     if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
                                                    spv::oit_tile_volumes_comp_float64), images),
@@ -143,16 +160,21 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
 }
 
 gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
-                                        const std::vector<gpu::Binding>& own) const {
+                                        const std::vector<gpu::Binding>& own,
+                                        const std::vector<std::uint32_t>& specialization) const {
+    std::vector<std::uint32_t> constants = {mNeeds.orthographic,
+                                            mNeeds.varyingDensity,
+                                            mNeeds.oneSource,
+                                            mNeeds.colouredExtinction,
+                                            mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
+                                            mNeeds.oneMedium};
+    constants.insert(constants.end(), specialization.begin(), specialization.end());
     return {*mDevice,
             {.name = std::string("oit.tile.") + stage,
              .spirv = spirv,
              .bindings = join(join(frameBindings(), mediaBindings()), join({kOpaqueT}, own)),
              .pushConstantBytes = sizeof(shader::TilePush),
-             .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
-                                mNeeds.colouredExtinction,
-                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
-                                mNeeds.oneMedium},
+             .specialization = std::move(constants),
              .constants = lightingConstants(mNeeds)}};
 }
 
@@ -199,6 +221,17 @@ void Tile::prepare(const MeasureFunction& measure) {
         declareClassify(frame, inputs);
     });
     planTiles();
+    // Which tiles cannot hold what is open at a time?
+    for (Group* group : {&mFewMix, &mManyMix}) {
+        if (group->tileCount == 0) continue;
+        measure([this, group](frame::FrameBuilder& frame, const Inputs& inputs) {
+            mBins.declareCount(frame, inputs);
+            mBins.declareScatter(frame, inputs);
+            declareComposite(frame, inputs, *group, true);
+            frame.addReadback("oit.tile.classes_read", frame.importBuffer(mClasses), mClassesRead);
+        });
+        planTiles();
+    }
     if (mLists) mLists->prepare(measure);
 }
 
@@ -251,16 +284,17 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
 }
 
 void Tile::planTiles() {
-    // Sources are worked out once per ray for a few media, and where light is the same everywhere.
-    const bool canComposite =
-        !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
-    std::vector<std::uint32_t> empty, ordered, volumes, lists;
+    std::vector<std::uint32_t> empty, ordered, volumes, fewMix, manyMix, lists;
     const auto classes = mClassesRead.mappedAs<std::uint32_t>();
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         if (classes[tile] == shader::kClassEmpty)
             empty.push_back(tile);
-        else if (classes[tile] == shader::kClassOrdered && canComposite)
+        else if (classes[tile] == shader::kClassOrdered && canComposite())
             ordered.push_back(tile);
+        else if (classes[tile] == shader::kClassFewMix && canComposite())
+            fewMix.push_back(tile);
+        else if (classes[tile] == shader::kClassManyMix)
+            manyMix.push_back(tile);
         else if (classes[tile] == shader::kClassVolumes)
             volumes.push_back(tile);
         else
@@ -271,6 +305,8 @@ void Tile::planTiles() {
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
     setTiles(mOrdered, ordered);
     setTiles(mVolumes, volumes);
+    setTiles(mFewMix, fewMix);
+    setTiles(mManyMix, manyMix);
     mAll.tiles = {};  // not visited again
     mListTileCount = lists.size();
     mLists.reset();
@@ -298,7 +334,8 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    pass.readsWrites(frame.importBuffer(mCounters), Access::ComputeWrite);
+    for (const gpu::Buffer* buffer : {&mCounters, &mClasses})
+        pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (isFirstWriter)
         pass.writes(inputs.result, Access::ComputeWrite);
     else
@@ -323,7 +360,7 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
     bool isFirstWriter = mIsScreenCovered;
-    for (Group* group : {&mOrdered, &mVolumes}) {
+    for (Group* group : {&mOrdered, &mVolumes, &mFewMix, &mManyMix}) {
         if (group->tileCount == 0) continue;
         declareComposite(frame, inputs, *group, isFirstWriter);
         isFirstWriter = false;
@@ -339,6 +376,8 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["pairs"] = mBins.pairCount();
     counters["tilesOrdered"] = mOrdered.tileCount;
     counters["tilesVolumes"] = mVolumes.tileCount;
+    counters["tilesFewMix"] = mFewMix.tileCount;
+    counters["tilesManyMix"] = mManyMix.tileCount;
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] = own.stopped;
@@ -353,7 +392,8 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
     bytes["bins"] = mBins.bytes();
-    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mFewMix.tiles.bytes() +
+                     mManyMix.tiles.bytes() + mClasses.bytes();
     return bytes;
 }
 

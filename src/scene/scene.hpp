@@ -148,6 +148,8 @@ struct Sphere {
     Profile profile = Profile::Constant;
 };
 
+/// An effect of the scene, or a sub-emitter of the instance before it: those follow their root in
+/// the order of particles::compileEffect(), with its transform, seed and times.
 struct EffectInstance {
     std::filesystem::path file;
     Effect effect;  ///< its medium name resolved to `medium`
@@ -155,6 +157,7 @@ struct EffectInstance {
     dmat4 worldFromEffect{1};
     std::uint64_t seed = 0;
     double time = 0;  ///< seconds simulated before the frame
+    bool isSubEmitter = false;
 };
 
 struct RenderSettings {

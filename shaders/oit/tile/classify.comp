@@ -15,6 +15,7 @@ struct Run {
 };
 
 Run runs[kRows];
+bool isMixed = false;  // media of different sources overlap, or their order is another
 bool needsLists = false;
 
 void meetSphere(uint row, SphereData sphere) {
@@ -27,7 +28,7 @@ void meetSphere(uint row, SphereData sphere) {
         runs[row].tint = sphere.tint;
     }
     const float kMargin = 1.000001;  // rounding must not hide an overlap
-    needsLists = needsLists || chord.enter < runs[row].reachBefore * kMargin;
+    isMixed = isMixed || chord.enter < runs[row].reachBefore * kMargin;
     runs[row].reach = max(runs[row].reach, chord.enter + chord.span);
 }
 
@@ -42,12 +43,14 @@ void main() {
     needsLists = last - k > kTileLongestList;
     last = min(last, k + kTileLongestList);
     uint before = 0u;
+    bool isSmooth = false;
     while (k < last) {
         uint index = UintArray(push.spherePairs).at[k];
         ++k;
         needsLists = needsLists || index < before;  // the list could not be sorted
         before = index;
         SphereData sphere = spheres[index];
+        isSmooth = isSmooth || (kSmooth && sphere.profile == kProfileSmooth);
         if (!kOneSource)
             [[unroll]] for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
     }
@@ -62,7 +65,9 @@ void main() {
         needsLists = needsLists || index < before;
         before = index;
     }
+    needsLists = needsLists || (isMixed && (isSmooth || hasBoxes));
     uint needed = needsLists ? kClassLists
+                  : isMixed  ? kClassFewMix
                   : hasBoxes ? kClassVolumes
                   : isEmpty  ? kClassEmpty
                              : kClassOrdered;
