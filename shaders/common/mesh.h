@@ -33,6 +33,8 @@ struct MaterialData {
     vec3 reflected;     // thin
     vec3 extinction;    // solid, 1/m
     vec3 scattering;    // solid, 1/m
+    float collimation;  // thin: 1 keeps the background sharp
+    float ior;          // thin and solid
 };
 
 // Own bindings of every pass that draws meshes.
@@ -58,6 +60,6 @@ BRUME_STRUCTS_END
 static_assert(sizeof(brume::shader::VertexData) == 32);
 static_assert(sizeof(brume::shader::MeshData) == 140);
 static_assert(offsetof(brume::shader::MeshData, firstVertex) == 132);
-static_assert(sizeof(brume::shader::MaterialData) == 84);
+static_assert(sizeof(brume::shader::MaterialData) == 92);
 #endif
 #endif

@@ -88,7 +88,7 @@ void addBench(CLI::App& app, Invocation& invocation) {
     CLI::App* command = app.add_subcommand("bench", "Measure time, bytes and error of methods");
     command->add_option("--scenes", a.scenes, "Names of `brume list scenes`, or scene files")
         ->delimiter(',');
-    command->add_option("--methods", a.methods, "Names of `brume list methods`, or all")
+    command->add_option("--methods", a.methods, "Names of `brume list methods`, or all; name:key=value:... for one with settings")
         ->delimiter(',');
     command->add_option("--shadows", a.shadows, "Measure these shadow stores at points, or all")->delimiter(',');
     command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");

@@ -6,9 +6,30 @@
 #include <bench/measure.hpp>
 #include <core/error.hpp>
 #include <oit/method_info.hpp>
+#include <sstream>
 
 namespace brume::bench {
 namespace {
+
+/// A word of MeasureOptions::methods, apart.
+struct MethodChoice {
+    std::string name;
+    scene::Settings settings;
+};
+
+MethodChoice parseChoice(const std::string& word) {
+    std::istringstream parts(word);
+    MethodChoice choice;
+    std::getline(parts, choice.name, ':');
+    for (std::string part; std::getline(parts, part, ':');) {
+        const std::size_t equals = part.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            throw inputError("benchmarking", "method " + word,
+                             fmt::format("\"{}\" is not of the form key=value", part));
+        choice.settings[part.substr(0, equals)] = part.substr(equals + 1);
+    }
+    return choice;
+}
 
 const oit::MethodInfo* findMethod(const std::string& name) {
     for (const oit::MethodInfo& info : oit::listMethods())
@@ -26,7 +47,7 @@ bool knowsSetting(const oit::MethodInfo& info, const std::string& key) {
 void checkOptions(const MeasureOptions& options) {
     std::vector<const oit::MethodInfo*> methods;
     for (const std::string& name : options.methods) {
-        methods.push_back(findMethod(name));
+        methods.push_back(findMethod(parseChoice(name).name));
         if (methods.back()) continue;
         std::vector<std::string_view> known;
         for (const oit::MethodInfo& info : oit::listMethods()) known.push_back(info.name);
@@ -42,6 +63,7 @@ void checkOptions(const MeasureOptions& options) {
 
 /// One method in the race.
 struct Contestant {
+    std::string word;  // of MeasureOptions::methods
     render::Options options;
     std::unique_ptr<render::Renderer> renderer;
     FrameSamples samples;
@@ -65,11 +87,14 @@ std::vector<Contestant> makeContestants(gpu::Device& device, const render::Prepa
     std::vector<Contestant> contestants(options.methods.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         Contestant& contestant = contestants[i];
-        contestant.options.method = options.methods[i];
+        const MethodChoice choice = parseChoice(options.methods[i]);
+        contestant.word = options.methods[i];
+        contestant.options.method = choice.name;
         contestant.options.triangleHashes = options.withError;
         for (const auto& [key, value] : options.settings)
-            if (knowsSetting(*findMethod(options.methods[i]), key))
+            if (knowsSetting(*findMethod(choice.name), key))
                 contestant.options.settings[key] = value;
+        for (const auto& [key, value] : choice.settings) contestant.options.settings[key] = value;
         contestant.attempt([&] {
             contestant.renderer =
                 std::make_unique<render::Renderer>(device, scene, contestant.options, log);
@@ -121,6 +146,7 @@ void FrameSamples::summariseInto(Row& row) const {
         row.passes[i].timeMs = percentile(mPassTimesMs[i], 0.5);
     row.bytes = mLast.bytes;
     row.counters = mLast.counters;
+    row.errorBound = mLast.errorBound;
     row.counters["distinctImages"] = mHashes.size();
     row.imageHash = computeHash(mLast.image);
 }
@@ -186,6 +212,7 @@ std::vector<Measurement> measureScene(gpu::Device& device, const std::string& sc
     for (const Contestant& contestant : contestants) {
         Measurement& m = measurements.emplace_back();
         m.row = describeRun(sceneName, scene.scene, contestant.options, device.info());
+        m.row.method = contestant.word;
         m.row.failure = contestant.failure;
         if (!contestant.failure.empty()) continue;
         contestant.samples.summariseInto(m.row);

@@ -55,7 +55,8 @@ reference::Result renderReference(const render::PreparedScene& scene,
 Comparison compareWithReference(const render::Result& frame, const reference::Result& exact);
 
 struct MeasureOptions {
-    std::vector<std::string> methods;  ///< names of oit::listMethods()
+    std::vector<std::string> methods;  ///< names of oit::listMethods(), each perhaps with settings
+                                       ///< of its own: "stochastic:samples=16:mask=naive"
     scene::Settings settings;          ///< each method gets those it knows
     int repeats = 20;
     int warmups = 1;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bench/pareto.hpp>
 #include <bench/report.hpp>
 #include <core/error.hpp>
 #include <core/image_io.hpp>
@@ -85,12 +87,17 @@ void writeReport(const std::filesystem::path& folder, std::span<const Measuremen
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw failure("writing report", folder.string(), error.message());
-    std::string text = "# Benchmark\n\n";
+    std::string text = "# Benchmark\n\n", title = "Benchmark";
     if (!measurements.empty()) {
         const Row& first = measurements.front().row;
-        text += fmt::format("Brume {} ({}) on {} ({}). Times are medians.\n\n", version(),
-                            first.commit, first.device, first.driver);
+        title = fmt::format("Brume {} ({}) on {} ({})", version(), first.commit, first.device,
+                            first.driver);
+        text += title + ". Times are medians.\n\n";
     }
+    const std::set<std::string> dominated = findDominated(measurements);
+    if (!dominated.empty())
+        text += fmt::format("Beaten in both time and rmse on every scene here: {}.\n\n",
+                            fmt::join(dominated, ", "));
     text += formatTable(measurements) + "\n";
     std::vector<Row> rows;
     for (const Measurement& m : measurements) {
@@ -110,6 +117,8 @@ void writeReport(const std::filesystem::path& folder, std::span<const Measuremen
         text += "\n";
     }
     writeTextFile(folder / "report.md", text);
+    writeTextFile(folder / "report.html",
+                  makeParetoPage(measurements, title, formatTable(measurements)));
     writeTextFile(folder / "rows.json", toJson(rows, "rows"));
 }
 

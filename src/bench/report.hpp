@@ -12,7 +12,7 @@ namespace brume::bench {
 /// The rows as an aligned table; also valid Markdown.
 std::string formatTable(std::span<const Measurement> measurements);
 
-/// Writes report.md with the table, rows.json, and per row an image and a picture of its error
+/// Writes report.html (plots of error against time), report.md with the table, rows.json, and per row an image and a picture of its error
 /// (PNG) into `folder`, which is created. Throws a failure Error.
 void writeReport(const std::filesystem::path& folder, std::span<const Measurement> measurements);
 

@@ -56,6 +56,7 @@ Json rowJson(const Row& row) {
     for (const auto& [name, count] : row.counters) json["counters"][name] = count;
     json["imageHash"] = fmt::format("{:016x}", row.imageHash);
     if (row.error) json["error"] = errorJson(*row.error);
+    if (row.errorBound) json["error"]["bound"] = *row.errorBound;
     if (row.layerPixelsPerSecond) json["layerPixelsPerSecond"] = *row.layerPixelsPerSecond;
     return json;
 }

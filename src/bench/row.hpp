@@ -31,6 +31,7 @@ struct Row {
     std::map<std::string, std::uint64_t> counters;
     std::uint64_t imageHash = 0;        ///< of the last frame; 16 hexadecimal digits in JSON
     std::optional<ErrorMetrics> error;  ///< if compared
+    std::optional<double> errorBound;   ///< largest possible error, if the method knows one
     std::optional<double> layerPixelsPerSecond;  ///< scenes `layers` only
     std::string failure;                         ///< why there is no measurement, or empty
 };

@@ -3,36 +3,36 @@
 
 #include <algorithm>
 #include <array>
+#include <bench/scene_parts.hpp>
 #include <bench/scenes.hpp>
-#include <random>
 
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 9> kScenes = {{
+constexpr std::array<SceneInfo, 20> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
     {"spheres_10k_15", "10 000 spheres of 15 pixels radius, seven per pixel"},
     {"spheres_10k_64", "10 000 spheres of 64 pixels radius, over a hundred per pixel"},
     {"spheres_100k_16", "100 000 spheres of 16 pixels radius"},
+    {"spheres_10k_4", "10 000 spheres of 4 pixels radius"},
+    {"spheres_100k_4", "100 000 spheres of 4 pixels radius"},
+    {"spheres_1m_4", "1 000 000 spheres of 4 pixels radius"},
+    {"mixed_10k_15", "10 000 spheres of 15 pixels radius, of two media that mix where they overlap"},
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
     {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
     {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
+    {"glass_bars", "two layers of coloured glass bars, crossed (McGuire, Mara 2016, figure 2)"},
+    {"frosted_panes", "panes of falling collimation before a row of spheres (figure 3)"},
+    {"foggy_street", "a street at night in fog with lamps (figure 1)"},
+    {"smoke_and_glass", "smoke through and behind panes and solid glass (figure 12)"},
+    {"plume_100k", "a smoke plume of 100 000 particles"},
+    {"engine", "many close shells of partial coverage (figure 9)"},
+    {"mixed", "smoke, foliage cards, ribbons, window panes and sheer cloth"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
-
-/// Numbers in [0, 1) that are the same with every standard library.
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : mEngine(seed) {}
-    double uniform() { return static_cast<double>(mEngine() >> 11) * 0x1p-53; }
-    double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-
-  private:
-    std::mt19937_64 mEngine;
-};
 
 scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     scene::Mesh mesh;
@@ -45,16 +45,6 @@ scene::Mesh makeScreenQuad(float depth, std::uint32_t material) {
     mesh.indices = {0, 1, 2, 0, 2, 3};
     mesh.material = material;
     return mesh;
-}
-
-void addDaylight(scene::Scene& scene) {
-    scene::Light ambient;
-    ambient.color = dvec3(0.4, 0.45, 0.5);
-    scene::Light sun;
-    sun.type = scene::LightType::Directional;
-    sun.color = dvec3(2, 1.9, 1.7);
-    sun.direction = glm::normalize(dvec3(0.6, -0.7, -0.39));
-    scene.lights = {ambient, sun};
 }
 
 NamedScene makeNamedLayers(int layerCount, ivec2 size) {
@@ -82,9 +72,14 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "spheres_10k_15") return {{std::string(name), makeSpheres(10'000, 15)}};
     if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};
     if (name == "spheres_100k_16") return {{std::string(name), makeSpheres(100'000, 16)}};
+    if (name == "spheres_10k_4") return {{std::string(name), makeSpheres(10'000, 4)}};
+    if (name == "spheres_100k_4") return {{std::string(name), makeSpheres(100'000, 4)}};
+    if (name == "spheres_1m_4") return {{std::string(name), makeSpheres(1'000'000, 4)}};
+    if (name == "mixed_10k_15") return {{std::string(name), makeSpheres(10'000, 15, 2)}};
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
+    if (auto scene = makeTransparencyScene(name)) return {{std::string(name), *std::move(scene)}};
     return makeLayerScenes(name);
 }
 
@@ -143,8 +138,13 @@ scene::Scene makeNestedSpheres(int count) {
     return scene;
 }
 
-scene::Scene makeSpheres(int count, double radiusPixels) {
+scene::Scene makeSpheres(int count, double radiusPixels, int mediumCount) {
     scene::Scene scene = makeSmokyScene();
+    for (int m = 1; m < mediumCount; ++m) {
+        scene.media.push_back(scene.media[0]);
+        scene.media.back().name = fmt::format("smoke {}", m);
+        scene.media.back().albedo *= dvec3(0.5, 0.8, 1.1);
+    }
 
     const double pixel = 2 * std::tan(0.5 * scene.camera.verticalFov) / scene.image.height;
     Random random(static_cast<std::uint64_t>(count));
@@ -158,6 +158,7 @@ scene::Scene makeSpheres(int count, double radiusPixels) {
         // A small sphere off the axis covers 1/cos(angle) more than one on it.
         sphere.radius = radiusPixels * pixel * depth / std::pow(1 + x * x + y * y, 0.25);
         sphere.density = 0.4 / (2 * sphere.radius);
+        sphere.medium = static_cast<std::uint32_t>(i % mediumCount);
         scene.spheres.push_back(sphere);
     }
     return scene;

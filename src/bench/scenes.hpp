@@ -37,8 +37,9 @@ scene::Scene makeLayers(int layerCount, int width, int height);
 scene::Scene makeNestedSpheres(int count);
 
 /// `count` spheres of constant density, each `radiusPixels` wide on a 1280x720 image, at random
-/// places and distances; optical depth 0.4 through each centre.
-scene::Scene makeSpheres(int count, double radiusPixels);
+/// places and distances; optical depth 0.4 through each centre. They take turns in `mediumCount`
+/// media of different albedos.
+scene::Scene makeSpheres(int count, double radiusPixels, int mediumCount = 1);
 
 /// Three coloured panes, one over the other, across a sun overhead that casts shadows.
 scene::Scene makeShadowPanes();

@@ -37,16 +37,15 @@ RadixSort::RadixSort(Device& device, const std::string& name, std::uint32_t capa
                         PrefixSum::sumCount(chunkCount(capacity) * shader::kSortDigits))) {}
 
 void RadixSort::record(Commands& commands, VkDeviceAddress keys, VkDeviceAddress values,
-                       std::uint32_t count, std::uint32_t bits) const {
+                       std::uint32_t count) const {
     BRUME_ASSERT_LE(std::uint64_t{count} * 4, mKeys.bytes());
     const std::uint32_t chunks = chunkCount(count);
     if (chunks == 0) return;
     shader::SortPush push{
         keys,  values, mKeys.deviceAddress(), mValues.deviceAddress(), mCounts.deviceAddress(),
         count, 0};
-    // An even number of passes leaves the result where it came from.
-    const std::uint32_t passes = (bits / 8 + 1) / 2 * 2;
-    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    constexpr std::uint32_t kPasses = 4;  // even: the result is where it came from
+    for (std::uint32_t pass = 0; pass < kPasses; ++pass) {
         push.shift = 8 * pass;
         if (pass > 0) commands.computeBarrier();
         commands.bindCompute(mCount);

@@ -13,10 +13,10 @@ class RadixSort {
   public:
     RadixSort(Device& device, const std::string& name, std::uint32_t capacity);
 
-    /// Sorts `count` <= capacity pairs in place, ascending by the low `bits` (8, 16, 24 or 32) of
-    /// the keys. Records only; barriers between its own steps included, none before or after.
+    /// Sorts `count` <= capacity pairs in place, ascending by key. Records only; barriers between
+    /// its own steps included, none before or after.
     void record(Commands& commands, VkDeviceAddress keys, VkDeviceAddress values,
-                std::uint32_t count, std::uint32_t bits = 32) const;
+                std::uint32_t count) const;
 
     std::uint64_t bytes() const;
 

@@ -17,10 +17,15 @@ struct Needs {
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
     bool varyingLight = false;        ///< point or spot lights, or shadows
-    bool colouredExtinction = false;  ///< extinction or transmission differs between channels
-    bool oneSource = false;  ///< one medium, one tint and the same light everywhere: what media
-                             ///< send depends on nothing but their summed depth
+    bool solids = false;              ///< closed meshes among the surfaces
+    bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
+    bool colouredSurfaces = false;    ///< transmission of thin surfaces does
+    bool diffusion = false;           ///< thin surfaces with a collimation below 1
+    bool oneMedium = false;  ///< one medium and one tint in the whole scene
+    bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
+                             ///< nothing but their summed depth
     bool orthographic = false;
+    float largestTint = 1;  ///< of all media, over channels and time
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
     std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
@@ -31,6 +36,7 @@ struct SurfaceDraw {
     std::uint32_t mesh = 0;      ///< index into the meshes
     std::uint32_t material = 0;  ///< index into the materials
     std::uint32_t vertexCount = 0;
+    bool isSolid = false;
     const gpu::Image* colorTexture = nullptr;
     const gpu::Image* emissionTexture = nullptr;
 };

@@ -54,6 +54,8 @@ class LinkedList final : public OitMethod {
 
     std::map<std::string, std::uint64_t> counters() override { return mLists.counters(); }
 
+    std::optional<double> errorBound() override { return 0; }
+
     std::map<std::string, std::uint64_t> bytes() const override {
         auto bytes = mLists.bytes();
         bytes["bins"] = mBins.bytes();

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace brume::oit {
@@ -36,6 +37,10 @@ class OitMethod {
 
     /// Counts of the last finished frame: stored, dropped, bands, longestList, ...
     virtual std::map<std::string, std::uint64_t> counters() = 0;
+
+    /// By how much, at most, the last finished frame differs from the exact image, rounding aside: 0
+    /// from an exact method, nothing from one that does not know.
+    virtual std::optional<double> errorBound() { return std::nullopt; }
 
     /// Device memory held, by kind.
     virtual std::map<std::string, std::uint64_t> bytes() const = 0;

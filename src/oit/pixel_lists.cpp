@@ -46,6 +46,11 @@ gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& na
              .constants = std::move(constants)}};
 }
 
+/// The entries of a band and, behind them, its surface records.
+std::uint64_t listBytes(std::uint64_t entries, std::uint64_t records) {
+    return entries * kEntryBytes + records * sizeof(shader::SurfaceRecord);
+}
+
 /// The finer of two builds of a shader, where the device has the numbers for it.
 std::span<const std::uint32_t> choose(const gpu::Device& device,
                                       std::span<const std::uint32_t> float32,
@@ -177,26 +182,22 @@ void PixelLists::planBands() {
     const auto totals = mTileTotalsRead.mappedAs<shader::TileTotals>();
     mBands.clear();
     mSurfacesStored = mLongest = 0;
-    std::uint64_t bandBytes = 0;
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         const shader::TileTotals& total = totals[tile];
-        const std::uint64_t bytes =
-            total.entries * kEntryBytes + total.surfaces * sizeof(shader::SurfaceRecord);
+        const std::uint64_t bytes = listBytes(total.entries, total.surfaces);
         if (bytes > mBudgetBytes)
             throw inputError(
                 "setting up " + mName, "budgetMiB",
                 fmt::format("the lists of one tile of 8 x 8 pixels need {} MiB, allowed "
                             "are budgets of at least that",
                             (bytes >> 20) + 1));
-        if (mBands.empty() || bandBytes + bytes > mBudgetBytes) {
+        if (mBands.empty() ||
+            listBytes(mBands.back().entryCount, mBands.back().recordCount) + bytes > mBudgetBytes)
             mBands.push_back({.firstSlot = tile});
-            bandBytes = 0;
-        }
         Band& band = mBands.back();
         ++band.tileCount;
         band.entryCount += total.entries;
         band.recordCount += total.surfaces;
-        bandBytes += bytes;
         mSurfacesStored += total.surfaces;
         mLongest = std::max<std::uint64_t>(mLongest, total.longest);
     }
@@ -204,10 +205,10 @@ void PixelLists::planBands() {
 
 void PixelLists::allocateForBands() {
     Band largest;
+    std::uint64_t bytes = 0;
     for (const Band& band : mBands) {
         largest.tileCount = std::max(largest.tileCount, band.tileCount);
-        largest.entryCount = std::max(largest.entryCount, band.entryCount);
-        largest.recordCount = std::max(largest.recordCount, band.recordCount);
+        bytes = std::max(bytes, listBytes(band.entryCount, band.recordCount));
     }
     const std::uint32_t pixels = largest.tileCount * kTilePixels;
     mOffsets = makeBuffer("offsets", 4ull * (pixels + 1));
@@ -216,8 +217,7 @@ void PixelLists::allocateForBands() {
         makeBuffer("surface_offsets", mNeeds.surfaces ? 4ull * (pixels + 1) : 0);
     mSurfaceCursors = makeBuffer("surface_cursors", mNeeds.surfaces ? 4ull * pixels : 0);
     mProgress = makeBuffer("progress", 4ull * pixels);
-    mEntries = makeBuffer("entries", largest.entryCount * kEntryBytes);
-    mRecords = makeBuffer("records", largest.recordCount * sizeof(shader::SurfaceRecord));
+    mLists = makeBuffer("lists", bytes);
     mBandTotals = makeBuffer("band_totals", 4 * mBands.size());
     mBandTotalsRead =
         makeBuffer("band_totals_read", 4 * mBands.size(), gpu::MemoryKind::Readback);
@@ -228,11 +228,11 @@ shader::ListPush PixelLists::makePush(const Band& band) const {
             .tileCount = band.tileCount,
             .roundCount = mRoundCount,
             .tileMap = mTileMap.deviceAddress(),
-            .entries = mEntries.deviceAddress(),
+            .entries = mLists.deviceAddress(),
             .offsets = mOffsets.deviceAddress(),
             .surfaceOffsets = mSurfaceOffsets.deviceAddress(),
             .surfaceCursors = mSurfaceCursors.deviceAddress(),
-            .records = mRecords.deviceAddress(),
+            .records = mLists.deviceAddress() + band.entryCount * kEntryBytes,
             .sphereOffsets = mBins->spheres().offsets,
             .spherePairs = mBins->spheres().pairs,
             .boxOffsets = mBins->boxes().offsets,
@@ -247,7 +247,7 @@ void PixelLists::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
     frame::PassBuilder& pass = frame.addPass(fmt::format("{}.surface_{}", mName, stage));
     pass.reads(inputs.opaqueT, Access::FragmentSample);
     for (const gpu::Buffer* buffer :
-         {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mCounters, &mEntries, &mRecords})
+         {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mCounters, &mLists})
         pass.readsWrites(frame.importBuffer(*buffer), Access::FragmentWrite);
     pass.renderArea(inputs.extent);
     pass.record([this, inputs, band, &pipeline](gpu::Commands& commands,
@@ -357,7 +357,7 @@ void PixelLists::declareScan(frame::FrameBuilder& frame, const Band& band) {
 void PixelLists::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band) {
     frame::PassBuilder& pass = frame.addPass(mName + ".store");
     pass.reads(frame.importBuffer(mOffsets), Access::ComputeRead);
-    for (const gpu::Buffer* buffer : {&mEntries, &mProgress})
+    for (const gpu::Buffer* buffer : {&mLists, &mProgress})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     declareMedia(frame, inputs, band, pass, mStore);
     if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
@@ -369,9 +369,9 @@ void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
     mBins->declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mRecords, &mProgress})
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mProgress})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
-    for (const gpu::Buffer* buffer : {&mEntries, &mCounters})
+    for (const gpu::Buffer* buffer : {&mLists, &mCounters})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (mRoundCount > 1) pass.readsWrites(frame.importBuffer(mStates), Access::ComputeWrite);
     // Each band writes its own pixels of the image.
@@ -425,7 +425,7 @@ std::map<std::string, std::uint64_t> PixelLists::counters() {
 }
 
 std::map<std::string, std::uint64_t> PixelLists::bytes() const {
-    return {{"lists", mEntries.bytes() + mRecords.bytes()},
+    return {{"lists", mLists.bytes()},
             {"listOffsets", mOffsets.bytes() + mSums.bytes() + mSurfaceOffsets.bytes() +
                                 mSurfaceCursors.bytes() + mProgress.bytes()},
             {"listStates", mStates.bytes()},

@@ -72,8 +72,8 @@ class PixelLists {
     std::vector<Band> mBands;
     std::uint64_t mSurfacesStored = 0, mLongest = 0;
     std::uint32_t mSliceCount = 1, mRoundCount = 1;
-    gpu::Buffer mTileMap, mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mProgress, mEntries;
-    gpu::Buffer mRecords, mStates;
+    gpu::Buffer mTileMap, mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mProgress, mLists;
+    gpu::Buffer mStates;
     gpu::Buffer mCounters, mCountersRead, mTileTotals, mTileTotalsRead;
     gpu::Buffer mBandTotals, mBandTotalsRead;
 };

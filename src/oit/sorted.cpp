@@ -3,15 +3,14 @@
 //       "over": what most engines do.
 // Source: T. Porter, T. Duff: "Compositing Digital Images", SIGGRAPH 1984 (the operator).
 // Limits: overlapping media are not mixed and pop when their centres change order; surfaces are
-//         blended after all media; coloured transmission is blended by its mean; solids are not
-//         drawn.
+//         blended after all media, solids after all; coloured transmission is blended by its mean.
 // Cost: 16 bytes per medium; one sort, one raster pass.
 #include <gpu/radix_sort.hpp>
-#include <oit/billboards.hpp>
 #include <oit/bindings.hpp>
+#include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
 
-#include <shaders/oit/billboards/billboards.h>
+#include <shaders/oit/layers/layers.h>
 #include <spv/oit/sorted/keys.comp.hpp>
 
 #include <algorithm>
@@ -25,11 +24,11 @@ class Sorted final : public OitMethod {
   public:
     Sorted(gpu::Device& device, const Inputs& inputs)
         : mCount(inputs.sphereCount + inputs.boxCount),
-          mBillboards(device, "sorted", inputs),
+          mLayers(device, "oit.sorted", inputs),
           mKeysPipeline(device, {.name = "oit.sorted.keys",
                                  .spirv = spv::oit_sorted_keys_comp,
                                  .bindings = join(frameBindings(), mediaBindings()),
-                                 .pushConstantBytes = sizeof(shader::BillboardPush)}),
+                                 .pushConstantBytes = sizeof(shader::LayerPush)}),
           mSort(device, "oit.sorted.sort", mCount),
           mKeys(device, {.name = "oit.sorted.keys", .bytes = 4ull * std::max(mCount, 1u)}),
           mOrder(device, {.name = "oit.sorted.order", .bytes = 4ull * std::max(mCount, 1u)}) {}
@@ -44,7 +43,7 @@ class Sorted final : public OitMethod {
 
   private:
     std::uint32_t mCount;
-    Billboards mBillboards;
+    OverLayers mLayers;
     gpu::ComputePipeline mKeysPipeline;
     gpu::RadixSort mSort;
     gpu::Buffer mKeys, mOrder;
@@ -61,13 +60,13 @@ void Sorted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
             commands.bindCompute(mKeysPipeline);
             bindFrame(commands, inputs);
             bindMedia(commands, inputs, resources.buffer(inputs.spheres), *inputs.boxes);
-            commands.pushConstants(shader::BillboardPush{
+            commands.pushConstants(shader::LayerPush{
                 .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress(), .count = mCount});
             commands.dispatch((mCount + 63) / 64);
             commands.computeBarrier();
             mSort.record(commands, mKeys.deviceAddress(), mOrder.deviceAddress(), mCount);
         });
-    mBillboards.declare(frame, inputs, order);
+    mLayers.declare(frame, inputs, order);
 }
 
 }  // namespace
@@ -79,10 +78,10 @@ const MethodInfo& info() {
         .paper = "Porter, Duff: Compositing Digital Images, 1984",
         .exactness = Exactness::Approximate,
         .passes = "1 sort + 1 raster",
-        .bytesPerPixel = "0 (16 per medium)",
+        .bytesPerPixel = "0 (16 per medium; 40 with solids)",
         .limits =
             "overlapping media are not mixed; surfaces come after all media; colour of "
-            "transmission is averaged; does not draw solids",
+            "transmission is averaged",
         .settings = {}};
     return kInfo;
 }

@@ -8,7 +8,7 @@
 //         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
 //         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
-//         largest radiance behind (counters stopped, stoppedAtPpm).
+//         largest radiance that media or the background may still send (errorBound()).
 // Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
 #include <oit/bindings.hpp>
 #include <oit/pixel_lists.hpp>
@@ -19,8 +19,12 @@
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/tile/classify.comp.float64.hpp>
 #include <spv/oit/tile/classify.comp.hpp>
+#include <spv/oit/tile/classify_boxes.comp.float64.hpp>
+#include <spv/oit/tile/classify_boxes.comp.hpp>
 #include <spv/oit/tile/composite.comp.float64.hpp>
 #include <spv/oit/tile/composite.comp.hpp>
+#include <spv/oit/tile/lit_volumes.comp.float64.hpp>
+#include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
@@ -49,6 +53,7 @@ class Tile final : public OitMethod {
     void prepare(const MeasureFunction& measure) override;
     void declare(frame::FrameBuilder& frame, const Inputs& inputs) override;
     std::map<std::string, std::uint64_t> counters() override;
+    std::optional<double> errorBound() override;
     std::map<std::string, std::uint64_t> bytes() const override;
 
   private:
@@ -79,6 +84,7 @@ class Tile final : public OitMethod {
     std::uint32_t mTileCount;
     MediaBins mBins;
     Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
     std::uint64_t mListTileCount = 0;
@@ -107,17 +113,28 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
                                                  spv::oit_tile_composite_comp_float64), images),
                 shader::kTileSize};
-    if (mNeeds.boxes && mNeeds.oneSource)
+    const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
+    if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
                                                    spv::oit_tile_volumes_comp_float64), images),
-                    shader::kTileSize * shader::kTileSize};
+                    pixels};
+    } else if (mNeeds.boxes && mNeeds.oneMedium) {
+        mVolumes = {makePipeline("lit_volumes",
+                                 choose(spv::oit_tile_lit_volumes_comp,
+                                        spv::oit_tile_lit_volumes_comp_float64), images),
+                    pixels};
+        mClassifyBoxes = makePipeline("classify_boxes",
+                                      choose(spv::oit_tile_classify_boxes_comp,
+                                             spv::oit_tile_classify_boxes_comp_float64), {});
+    }
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",
                   .vertexSpirv = spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
                   .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
-                  .pushConstantBytes = sizeof(shader::TilePush)}};
+                  .pushConstantBytes = sizeof(shader::TilePush),
+                  .constants = lightingConstants(mNeeds)}};
     mClasses = makeBuffer("classes", 4ull * mTileCount);
     mClassesRead = makeBuffer("classes_read", 4ull * mTileCount, gpu::MemoryKind::Readback);
     mCounters = makeBuffer("counters", sizeof(shader::TileCounters));
@@ -134,7 +151,8 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .pushConstantBytes = sizeof(shader::TilePush),
              .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
                                 mNeeds.colouredExtinction,
-                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u)},
+                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
+                                mNeeds.oneMedium},
              .constants = lightingConstants(mNeeds)}};
 }
 
@@ -161,7 +179,8 @@ shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCoun
             .classes = mClasses.deviceAddress(),
             .counters = mCounters.deviceAddress(),
             .tileCount = tileCount,
-            .epsilon = mSettings.epsilon};
+            .epsilon = mSettings.epsilon,
+            .largestTint = mNeeds.largestTint};
 }
 
 void Tile::prepare(const MeasureFunction& measure) {
@@ -214,13 +233,19 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.readsWrites(classes, Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-        commands.bindCompute(mAll.pipeline);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
-                      *inputs.texelSampler);
-        commands.pushConstants(makePush(mAll.tiles, mTileCount));
-        commands.dispatchThreads(std::uint64_t{mTileCount} * shader::kTileSize, 64);
+        const auto run = [&](const gpu::ComputePipeline& pipeline, std::uint32_t threadsPerTile) {
+            commands.bindCompute(pipeline);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.pushConstants(makePush(mAll.tiles, mTileCount));
+            commands.dispatchThreads(std::uint64_t{mTileCount} * threadsPerTile, 64);
+        };
+        run(mAll.pipeline, shader::kTileSize);
+        if (!mClassifyBoxes) return;
+        commands.computeBarrier();
+        run(mClassifyBoxes, shader::kTileSize * shader::kTileSize);
     });
     frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
 }
@@ -317,9 +342,11 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] = own.stopped;
-    counters["stoppedAtPpm"] =
-        static_cast<std::uint64_t>(1e6 * std::bit_cast<float>(own.transmittance));
     return counters;
+}
+
+std::optional<double> Tile::errorBound() {
+    return std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
 }
 
 std::map<std::string, std::uint64_t> Tile::bytes() const {

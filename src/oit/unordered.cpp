@@ -2,9 +2,9 @@
 // What: media and surfaces blended with "over" in the order of submission: the baseline that costs
 //       one pass and is right only where nothing overlaps on the screen.
 // Source: T. Porter, T. Duff: "Compositing Digital Images", SIGGRAPH 1984 (the operator).
-// Limits: order, overlap and coloured transmission (blended by its mean) are ignored; solids are
-// not drawn. Cost: nothing beyond the image; one raster pass.
-#include <oit/billboards.hpp>
+// Limits: order, overlap and coloured transmission (blended by its mean) are ignored.
+// Cost: nothing beyond the image; one raster pass, one more and 40 bytes per pixel with solids.
+#include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
 
 namespace brume::oit::unordered {
@@ -13,18 +13,18 @@ namespace {
 class Unordered final : public OitMethod {
   public:
     Unordered(gpu::Device& device, const Inputs& inputs)
-        : mBillboards(device, "unordered", inputs) {}
+        : mLayers(device, "oit.unordered", inputs) {}
 
     const MethodInfo& info() const override;
     void prepare(const MeasureFunction&) override {}
     void declare(frame::FrameBuilder& frame, const Inputs& inputs) override {
-        mBillboards.declare(frame, inputs, {});
+        mLayers.declare(frame, inputs, {});
     }
     std::map<std::string, std::uint64_t> counters() override { return {}; }
     std::map<std::string, std::uint64_t> bytes() const override { return {}; }
 
   private:
-    Billboards mBillboards;
+    OverLayers mLayers;
 };
 
 }  // namespace
@@ -36,8 +36,8 @@ const MethodInfo& info() {
         .paper = "Porter, Duff: Compositing Digital Images, 1984",
         .exactness = Exactness::Approximate,
         .passes = "1 raster",
-        .bytesPerPixel = "0",
-        .limits = "ignores order, overlap and colour of transmission; does not draw solids",
+        .bytesPerPixel = "0 (40 with solids)",
+        .limits = "ignores order, overlap and colour of transmission",
         .settings = {}};
     return kInfo;
 }

@@ -81,6 +81,8 @@ shader::MaterialData makeMaterial(const scene::Material& material) {
     data.reflected = vec3(material.reflected);
     data.extinction = vec3(material.absorption + material.scattering);
     data.scattering = vec3(material.scattering);
+    data.collimation = static_cast<float>(material.collimation);
+    data.ior = static_cast<float>(material.ior);
     return data;
 }
 
@@ -333,6 +335,7 @@ void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prep
             .mesh = static_cast<std::uint32_t>(meshes.size() - 1),
             .material = mesh.material,
             .vertexCount = static_cast<std::uint32_t>(mesh.indices.size()),
+            .isSolid = material.type == scene::MaterialType::Solid,
             .colorTexture = uploadTexture(submitter, material.colorTexture.get()),
             .emissionTexture = uploadTexture(submitter, material.emissionTexture.get())};
         (material.type == scene::MaterialType::Opaque ? mOpaque : mTransparent).push_back(draw);

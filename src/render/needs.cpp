@@ -13,11 +13,20 @@ namespace {
 
 bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
 
+void addThinNeeds(const scene::Material& material, oit::Needs& needs) {
+    const bool transmits = material.transmission != dvec3(0);
+    if (!isGrey(material.transmission) || (transmits && material.colorTexture))
+        needs.colouredSurfaces = true;
+    if (material.collimation < 1) needs.diffusion = true;
+}
+
 void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
     for (const scene::Mesh& mesh : scene.meshes) {
         const scene::Material& material = scene.materials[mesh.material];
         if (material.type == scene::MaterialType::Opaque) continue;
         needs.surfaces = true;
+        if (material.type == scene::MaterialType::Solid) needs.solids = true;
+        if (material.type == scene::MaterialType::Thin) addThinNeeds(material, needs);
         if (material.type == scene::MaterialType::Solid &&
             !isGrey(material.absorption + material.scattering))
             needs.colouredExtinction = true;
@@ -38,13 +47,9 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
-/// Whether one medium and one tint are all there is, under light that is the same everywhere.
-bool hasOneSource(const PreparedScene& prepared) {
-    const scene::Scene& scene = prepared.scene;
-    for (const scene::Light& light : scene.lights)
-        if (light.type == scene::LightType::Point || light.type == scene::LightType::Spot)
-            return false;
-    if (!scene.effects.empty()) return false;
+/// Whether one medium and one tint are all there is.
+bool hasOneMedium(const PreparedScene& prepared) {
+    if (!prepared.scene.effects.empty()) return false;
     std::set<std::uint32_t> media;
     std::set<std::array<float, 3>> tints;
     for (const scene::MediumSphere& sphere : prepared.spheres) {
@@ -53,10 +58,21 @@ bool hasOneSource(const PreparedScene& prepared) {
     }
     for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
         if (prepared.volumes[i].isEmpty()) continue;
-        media.insert(scene.volumes[i].medium);
+        media.insert(prepared.scene.volumes[i].medium);
         tints.insert({1, 1, 1});
     }
     return media.size() == 1 && tints.size() == 1;
+}
+
+float findLargestTint(const PreparedScene& prepared) {
+    float largest = 1;
+    const auto extend = [&](const vec3& tint) {
+        largest = std::max({largest, tint.x, tint.y, tint.z});
+    };
+    for (const scene::MediumSphere& sphere : prepared.spheres) extend(sphere.tint);
+    for (const scene::EffectInstance& effect : prepared.scene.effects)
+        for (const auto& [age, tint] : effect.effect.tint.keys) extend(vec3(tint));
+    return largest;
 }
 
 }  // namespace
@@ -81,7 +97,9 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
             needs.varyingLight = true;
     }
-    needs.oneSource = hasOneSource(prepared);
+    needs.oneMedium = hasOneMedium(prepared);
+    needs.oneSource = needs.oneMedium && !needs.varyingLight;
+    needs.largestTint = findLargestTint(prepared);
     needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
 }
@@ -93,11 +111,15 @@ std::string describe(const oit::Needs& needs) {
     return "needs\n" + line("spheres", needs.spheres, "soft spheres of particles or the scene") +
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
+           line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
            line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
-           line("oneSource", needs.oneSource, "one medium and tint, the same light everywhere") +
+           line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
+           line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
+           line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
            line("orthographic", needs.orthographic, "parallel rays") +
            fmt::format("  {:<20} {:<4} directional, point and spot lights\n", "lights",
                        needs.lights) +

@@ -218,6 +218,7 @@ Result Renderer::renderFrame() {
             result.timeMs += pass.timeMs;
     result.bytes = mImpl->bytes();
     result.counters = mImpl->method->counters();
+    result.errorBound = mImpl->method->errorBound();
     if (result.counters["exhausted"] > 0)
         mImpl->log.warning(
             fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,7 +33,7 @@ struct PreparedScene {
 };
 
 struct Options {
-    std::string method = "linked_list";
+    std::string method = "tile";
     scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
                                ///< "shuffle"
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
@@ -51,6 +52,7 @@ struct Result {
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
     std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
+    std::optional<double> errorBound;  ///< the method's, see OitMethod::errorBound()
 };
 
 struct ShadowSamples {

@@ -156,7 +156,7 @@ struct EffectInstance {
 };
 
 struct RenderSettings {
-    std::string method = "linked_list";
+    std::string method = "tile";
     Settings settings;
 };
 

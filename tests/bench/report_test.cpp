@@ -2,6 +2,7 @@
 // Tables and files that people read after a benchmark.
 #include <gtest/gtest.h>
 
+#include <bench/pareto.hpp>
 #include <bench/report.hpp>
 #include <core/error.hpp>
 #include <filesystem>
@@ -80,6 +81,50 @@ TEST_F(ReportTest, WriteTextFile_WithoutFolder_IsAFailure) {
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Failure);
     }
+}
+
+Measurement makeTimed(const char* scene, const char* method, double ms, double rmse) {
+    Measurement m;
+    m.row.scene = scene;
+    m.row.method = method;
+    m.row.time = {ms, ms, ms, 1};
+    m.row.error = ErrorMetrics{.rmse = rmse};
+    return m;
+}
+
+TEST(Pareto, Front_HoldsWhatNoOtherBeatsInBoth) {
+    const std::vector<Measurement> rows = {
+        makeTimed("a", "exact", 10, 1e-6),   makeTimed("a", "fast", 1, 0.1),
+        makeTimed("a", "slow_wrong", 5, 0.2), makeTimed("a", "middle", 3, 0.01),
+        makeTimed("b", "slow_wrong", 1, 0.2), makeTimed("b", "fast", 0.5, 0.1)};
+    EXPECT_EQ(findParetoFront(rows, "a"), (std::vector<std::size_t>{1, 3, 0}));
+    EXPECT_EQ(findParetoFront(rows, "b"), (std::vector<std::size_t>{5}));
+    EXPECT_EQ(findDominated(rows), (std::set<std::string>{"slow_wrong"}));
+}
+
+TEST(Pareto, RowsWithoutErrorOrMeasurement_AreLeftOut) {
+    std::vector<Measurement> rows = {makeTimed("a", "failed", 1, 0), makeTimed("a", "blind", 2, 0),
+                                     makeTimed("a", "good", 3, 0)};
+    rows[0].row.failure = "out of memory";
+    rows[1].row.error.reset();
+    EXPECT_EQ(findParetoFront(rows, "a"), (std::vector<std::size_t>{2}));
+    EXPECT_TRUE(findDominated(rows).empty());
+}
+
+TEST(Pareto, Page_DrawsEverySceneAndNeedsNothingElse) {
+    const std::vector<Measurement> rows = {makeTimed("a<b", "exact", 10, 0),
+                                           makeTimed("a<b", "fast", 1, 0.1),
+                                           makeTimed("c", "fast", 1, 0.1)};
+    const std::string page = makeParetoPage(rows, "Brume & co", "| table |");
+    EXPECT_NE(page.find("a&lt;b"), std::string::npos);
+    EXPECT_NE(page.find("Brume &amp; co"), std::string::npos);
+    EXPECT_NE(page.find("| table |"), std::string::npos);
+    EXPECT_EQ(page.find("nan"), std::string::npos);
+    for (const char* outside : {"http:", "https:", "src=", "href=", "<script"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    std::size_t plots = 0;
+    for (std::size_t at = 0; (at = page.find("<svg", at)) != std::string::npos; ++at) ++plots;
+    EXPECT_EQ(plots, 2u);
 }
 
 }  // namespace

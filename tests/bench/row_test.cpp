@@ -58,6 +58,8 @@ TEST(RowJson, WithComparison_HasExactlyTheErrorKeys) {
     const Json error = Json::parse(toJson(row))["error"];
     EXPECT_EQ(keysOf(error), (std::set<std::string>{"rmse", "max", "bias", "p999", "psnr", "flip",
                                                     "nonFinite", "excluded"}));
+    row.errorBound = 1e-3;
+    EXPECT_EQ(Json::parse(toJson(row))["error"]["bound"], 1e-3);
     EXPECT_EQ(error["rmse"], 1e-6);
     EXPECT_EQ(error["excluded"], 3);
     EXPECT_TRUE(error["psnr"].is_null()) << "JSON has no infinity";

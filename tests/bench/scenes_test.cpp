@@ -2,6 +2,7 @@
 // The built-in scenes are what their names say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bench/scenes.hpp>
 #include <scene/camera.hpp>
 #include <set>
@@ -62,6 +63,26 @@ TEST(Scenes, Spheres1k48_HaveSixPointFourMillionIntervals) {
     const scene::Scene scene = makeSpheres(1000, 48);
     EXPECT_EQ(scene.spheres.size(), 1000u);
     EXPECT_NEAR(countIntervals(scene, 8), 6.4e6, 0.1e6);
+}
+
+TEST(Scenes, TransparencyScenes_HoldWhatTheirNamesSay) {
+    const auto countThin = [](const scene::Scene& scene) {
+        return std::count_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) {
+            return scene.materials[mesh.material].type == scene::MaterialType::Thin;
+        });
+    };
+    EXPECT_EQ(countThin(makeScenes("glass_bars")[0].scene), 12);
+    EXPECT_EQ(countThin(makeScenes("engine")[0].scene), 60);
+    EXPECT_EQ(makeScenes("plume_100k")[0].scene.spheres.size(), 100'000u);
+    const scene::Scene frosted = makeScenes("frosted_panes")[0].scene;
+    std::set<double> collimations;
+    for (const scene::Material& material : frosted.materials)
+        if (material.type == scene::MaterialType::Thin) collimations.insert(material.collimation);
+    EXPECT_EQ(collimations, (std::set<double>{0, 0.25, 0.5, 0.75, 1}));
+    const scene::Scene mixed = makeScenes("mixed")[0].scene;
+    EXPECT_TRUE(std::any_of(mixed.materials.begin(), mixed.materials.end(),
+                            [](const auto& material) { return material.colorTexture; }));
+    EXPECT_FALSE(mixed.spheres.empty());
 }
 
 TEST(Scenes, Spheres_AreTheSameEveryTime) {

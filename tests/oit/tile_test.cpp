@@ -140,6 +140,27 @@ TEST_F(Tile, VolumesOfOneSource_AreExactWithoutLists) {
     EXPECT_GT(countListTiles(s), 0u);
 }
 
+TEST_F(Tile, VolumesInLampLight_AreExactWithoutLists) {
+    TestScene s(32, 32);
+    s.addMedium(dvec3(1, 2, 4), dvec3(0.9, 0.5, 0.2), dvec3(0.2));
+    s.scene.media[0].phase = scene::PhaseType::HenyeyGreenstein;
+    s.scene.media[0].g = 0.5;
+    fillBricks(s.addGrid(0, glm::scale(translation(dvec3(-0.8)), dvec3(0.1))), 2, noiseAt);
+    s.addDaylight();
+    s.addLight(scene::LightType::Point, dvec3(3, 2, 1)).position = dvec3(0.1, 0.2, -0.15);
+    s.scene.lights.back().radius = 0.05;
+    expectExact(s, "outside");
+    EXPECT_EQ(countListTiles(s), 0u);
+    EXPECT_GT(renderTile(s).counters.at("tilesVolumes"), 0u);
+    s.scene.camera.position = dvec3(0.05, -0.1, 0.12);
+    s.scene.camera.target = dvec3(1, 0.3, 1);
+    expectExact(s, "inside");
+    EXPECT_EQ(countListTiles(s), 0u);
+    s.addBox(0, dvec3(-1), dvec3(1), 0.3f);
+    expectExact(s, "with a box across the bricks");
+    EXPECT_GT(countListTiles(s), 0u);
+}
+
 TEST_F(Tile, PointLight_IsExact) {
     TestScene s = makeCloud(20, 1, Profile::Constant);
     s.addLight(scene::LightType::Point, dvec3(3)).position = dvec3(0.2, 0.3, -1.5);
@@ -183,23 +204,36 @@ TEST_F(Tile, Bands_GiveTheSameBits) {
     EXPECT_EQ(computeHash(bands.image), computeHash(whole.image));
 }
 
-TEST_F(Tile, EarlyStop_StaysWithinItsBound) {
-    // Radiances up to 1, so that the error is at most the transmittance at which a pixel stops.
-    TestScene s = makeCloud(200, 1, Profile::Constant);
-    s.scene.media[0].extinction = dvec3(6);
-    s.scene.media[0].emission = dvec3(0);
-    const Image exact = renderTile(s).image;
-    for (const double epsilon : {1.0 / 1024, 0.1}) {
-        const render::Result result = renderTile(s, {{"epsilon", std::to_string(epsilon)}});
-        EXPECT_GT(result.counters.at("stopped"), 0u);
-        EXPECT_LE(static_cast<double>(result.counters.at("stoppedAtPpm")), 1e6 * epsilon);
-        double largest = 0;
-        for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
-            const vec3 d = glm::abs(exact.pixels[i] - result.image.pixels[i]);
-            largest = std::max({largest, double(d.x), double(d.y), double(d.z)});
+TEST_F(Tile, EarlyStop_StaysWithinTheBoundThatItReports) {
+    TestScene spheres = makeCloud(200, 1, Profile::Constant);
+    spheres.scene.media[0].extinction = dvec3(6);
+    TestScene row = makeRow(0.45);
+    for (scene::Medium& medium : row.scene.media) medium.extinction = dvec3(40, 30, 20);
+    for (scene::MediumSphere& sphere : row.spheres) sphere.tint = vec3(1, 3, 2);
+    TestScene volume(32, 32);
+    volume.addMedium(60, 0.5, 3);
+    fillBricks(volume.addGrid(0, glm::scale(translation(dvec3(-0.8)), dvec3(0.1))), 2, noiseAt);
+    volume.addDaylight();
+    TestScene lamp = volume;
+    lamp.addLight(scene::LightType::Point, dvec3(3)).position = dvec3(-1, -2, -1.5);
+    lamp.scene.lights.back().radius = 0.5;
+    for (const TestScene& s : {spheres, row, volume, lamp}) {
+        const render::Result exact = renderTile(s);
+        EXPECT_EQ(exact.errorBound, 0.0);
+        EXPECT_EQ(exact.counters.at("tilesLists"), 0u);
+        for (const double epsilon : {1.0 / 1024, 0.2}) {
+            const render::Result result = renderTile(s, {{"epsilon", std::to_string(epsilon)}});
+            EXPECT_GT(result.counters.at("stopped"), 0u);
+            double largest = 0;
+            for (std::size_t i = 0; i < exact.image.pixels.size(); ++i) {
+                const vec3 d = glm::abs(exact.image.pixels[i] - result.image.pixels[i]);
+                largest = std::max({largest, double(d.x), double(d.y), double(d.z)});
+            }
+            EXPECT_GT(largest, 0);
+            ASSERT_TRUE(result.errorBound);
+            EXPECT_LE(largest, *result.errorBound + 1e-5) << "rounding aside";
+            EXPECT_LE(*result.errorBound, 100 * epsilon) << "worth knowing";
         }
-        EXPECT_GT(largest, 0);
-        EXPECT_LE(largest, epsilon);
     }
 }
 

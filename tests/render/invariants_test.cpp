@@ -193,7 +193,7 @@ class Determinism : public RenderTest {};
 
 TEST_F(Determinism, TwentyRenders_GiveTheSameBits) {
     const TestScene s = makeEverything();
-    render::Renderer renderer(device(), s, {}, log());
+    render::Renderer renderer(device(), s, {.method = "linked_list"}, log());
     const std::uint64_t hash = computeHash(renderer.renderFrame().image);
     for (int i = 0; i < 18; ++i) EXPECT_EQ(computeHash(renderer.renderFrame().image), hash);
     EXPECT_EQ(hashOf(s), hash);
@@ -214,7 +214,7 @@ TEST_F(Determinism, Bands_GiveTheSameBits) {
     for (const bool isSmooth : {false, true}) {
         if (isSmooth) s.spheres[0].profile = Profile::Smooth;
         const render::Result plain = render(s);
-        const render::Result bands = render(s, {.settings = {{"budgetMiB", "1"}}});
+        const render::Result bands = render(s, {.method = "linked_list", .settings = {{"budgetMiB", "1"}}});
         EXPECT_GT(bands.counters.at("bands"), 3u);
         for (const char* key : {"stored", "surfaces", "longestList"})
             EXPECT_EQ(bands.counters.at(key), plain.counters.at(key)) << key;
@@ -230,13 +230,13 @@ TEST_F(Determinism, BudgetBelowOneTile_IsAnInputError) {
     const std::uint32_t medium = s.addMedium(1e-3);
     for (int i = 0; i < 2500; ++i) s.addSphere(medium, dvec3(0, 0, 1e-3 * i), 5);
     try {
-        render(s, {.settings = {{"budgetMiB", "1"}}});
+        render(s, {.method = "linked_list", .settings = {{"budgetMiB", "1"}}});
         FAIL() << "2 500 intervals of 8 bytes on 64 pixels are more than 1 MiB";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Input);
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
-    EXPECT_EQ(render(s, {.settings = {{"budgetMiB", "2"}}}).counters.at("dropped"), 0u);
+    EXPECT_EQ(render(s, {.method = "linked_list", .settings = {{"budgetMiB", "2"}}}).counters.at("dropped"), 0u);
 }
 
 TEST_F(Determinism, MediaOnOneTileByTheThousands_AreAllStored) {

@@ -134,7 +134,7 @@ render::Result RenderTest::render(const render::PreparedScene& scene, render::Op
 
 std::uint64_t RenderTest::hashOf(const render::PreparedScene& scene,
                                  const scene::Settings& settings) {
-    return computeHash(render(scene, {.settings = settings}).image);
+    return computeHash(render(scene, {.method = "linked_list", .settings = settings}).image);
 }
 
 Difference RenderTest::measure(const render::PreparedScene& scene) {

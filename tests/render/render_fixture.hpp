@@ -77,7 +77,8 @@ struct Difference {
 
 class RenderTest : public GpuTest {
   protected:
-    render::Result render(const render::PreparedScene& scene, render::Options options = {});
+    render::Result render(const render::PreparedScene& scene,
+                          render::Options options = {.method = "linked_list"});
     std::uint64_t hashOf(const render::PreparedScene& scene, const scene::Settings& settings = {});
 
     /// Renders with mMethod and the reference. Checks that nothing was lost.

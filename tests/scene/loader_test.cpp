@@ -23,7 +23,7 @@ TEST(Scene_Minimal, VersionAlone_GivesTheDefaults) {
     const Scene scene = parse("{ \"version\": 1 }");
     EXPECT_EQ(scene.image.width, 960);
     EXPECT_EQ(scene.image.height, 540);
-    EXPECT_EQ(scene.render.method, "linked_list");
+    EXPECT_EQ(scene.render.method, "tile");
     EXPECT_TRUE(scene.lights.empty());
     EXPECT_TRUE(scene.file.is_absolute());
 }

@@ -3,7 +3,7 @@
 // and source with an integer count, reset in free space.
 #ifndef BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
 #define BRUME_OIT_LINKED_LIST_CONSTANT_GLSL
-#include "path.glsl"
+#include "surfaces.glsl"
 
 // What a medium of density 1 does to a ray: its extinction and its source do not vary along it.
 struct RayMedium {

@@ -3,6 +3,7 @@
 #ifndef BRUME_SHADERS_OIT_LINKED_LIST_LISTS_H
 #define BRUME_SHADERS_OIT_LINKED_LIST_LISTS_H
 #include "../../common/shared.h"
+#include "../integrate/path.h"
 
 BRUME_STRUCTS_BEGIN
 
@@ -58,23 +59,6 @@ struct SurfaceRecord {
 BRUME_CONST uint kFaceThin = 0u;
 BRUME_CONST uint kFaceFront = 1u;  // of a solid: the ray enters
 BRUME_CONST uint kFaceBack = 2u;   // the ray leaves
-
-// What a ray has met so far: everything that compositing front to back carries along.
-struct Path {
-    vec3 radiance;
-    vec3 surfaces;    // product of the transmissions of the thin surfaces crossed
-    vec3 surfacesLo;  // what rounding has taken from it
-    vec3 depthHi;     // optical depth of the media crossed: T = surfaces * exp(-depth)
-    vec3 depthLo;     // what rounding has taken from depthHi
-    vec3 decay;       // exp(-depth)
-};
-
-// Sums over the solids that the ray is inside, or over the open media of constant density.
-struct Sums {
-    int count;
-    vec3 extinctionHi, extinctionLo;
-    vec3 sourceHi, sourceLo;  // of solids: scattering coefficient
-};
 
 // How far a pixel is resolved.
 struct PixelState {

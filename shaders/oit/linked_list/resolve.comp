@@ -60,7 +60,6 @@ Real surfaceDistance(uvec2 entry) {
 }
 
 #include "constant.glsl"
-#include "path.glsl"
 #include "sort.glsl"
 #include "varying.glsl"
 

@@ -4,13 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../../common/bindings.glsl"
 #include "../../gpu/address.glsl"
-#include "../billboards/billboards.h"
+#include "../layers/layers.h"
 
 layout(local_size_x = 64) in;
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
-layout(push_constant, scalar) uniform Push { BillboardPush push; };
+layout(push_constant, scalar) uniform Push { LayerPush push; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -54,7 +54,8 @@ void main() {
     k = UintArray(push.boxOffsets).at[tile];
     last = UintArray(push.boxOffsets).at[tile + 1u];
     bool hasBoxes = k < last;
-    needsLists = needsLists || (hasBoxes && !kOneSource) || last - k > kTileLongestList;
+    bool areBoxesEasy = kOneSource || (kOneMedium && isEmpty);  // classify_boxes.comp says more
+    needsLists = needsLists || (hasBoxes && !areBoxesEasy) || last - k > kTileLongestList;
     last = min(last, k + kTileLongestList);
     for (before = 0u; k < last; ++k) {
         uint index = UintArray(push.boxPairs).at[k];

@@ -4,7 +4,6 @@
 // common source, so that their order does not matter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/exponential.glsl"
 #include "../../common/lighting.glsl"
 #include "column.glsl"
 
@@ -79,7 +78,26 @@ float findWorst() {
     return worst;
 }
 
-void finishRow(uint row, vec3 extinction) {
+// The largest radiance per optical depth of any medium; none may glow without absorbing.
+vec3 findLargestSource(uint row) {
+    vec3 largest = vec3(0);
+    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m)
+        largest = max(largest, sources[row * kTileMedia + m] /
+                                   max(loadMedium(m).extinction, vec3(1e-30)));
+    return largest * push.largestTint;
+}
+
+bool canStop() {
+    bool isAbsorbed = true;
+    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
+        MediumData medium = loadMedium(m);
+        isAbsorbed = isAbsorbed && all(lessThanEqual(medium.emission, medium.extinction * 1e20));
+    }
+    return isAbsorbed;
+}
+
+// Returns what the pixel may be off if the column has stopped early.
+float finishRow(uint row, vec3 extinction) {
     ivec2 pixel = ivec2(corner + uvec2(0u, row));
     vec3 rest = max(perChannel(sums[row]), 0.0);
     if (kOneSource) {
@@ -89,10 +107,10 @@ void finishRow(uint row, vec3 extinction) {
         radiances[row] = spheres[0].tint * sources[row * kTileMedia] *
                          (length * meanDecay(depth, rest));
     }
-    if (all(lessThan(pixel, ivec2(frame.size)))) {
-        vec3 behind = texelFetch(opaqueColor, pixel, 0).rgb;
-        imageStore(result, pixel, vec4(radiances[row] + rest * behind, 1.0));
-    }
+    if (!all(lessThan(pixel, ivec2(frame.size)))) return 0.0;
+    vec3 behind = texelFetch(opaqueColor, pixel, 0).rgb;
+    imageStore(result, pixel, vec4(radiances[row] + rest * behind, 1.0));
+    return boundError(rest, findLargestSource(row), behind);
 }
 
 void main() {
@@ -104,14 +122,16 @@ void main() {
     float worst = kOneSource ? 0.0 : 1.0;
     uint k = UintArray(push.sphereOffsets).at[tile];
     uint last = UintArray(push.sphereOffsets).at[tile + 1u];
+    float epsilon = kOneSource || canStop() ? push.epsilon : 0.0;
     while (k < last) {
         SphereData sphere = spheres[UintArray(push.spherePairs).at[k]];
         ++k;
         vec3 extinction = kOneSource ? first : perChannel(media[sphere.medium].extinction);
         [[unroll]] for (uint row = 0u; row < kRows; ++row) crossSphere(row, sphere, extinction);
         worst = findWorst();
-        if (kOneSource ? worst > enough : worst < push.epsilon) break;
+        if (kOneSource ? worst > enough : worst < epsilon) break;
     }
-    if (k < last) countStop(kOneSource ? push.epsilon : worst);
-    [[unroll]] for (uint row = 0u; row < kRows; ++row) finishRow(row, first);
+    float bound = 0.0;
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) bound = max(bound, finishRow(row, first));
+    if (k < last) countStop(bound);
 }

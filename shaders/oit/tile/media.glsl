@@ -11,21 +11,34 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOrthographic = true;
 layout(constant_id = 1) const bool kSmooth = true;     // some spheres are
-layout(constant_id = 2) const bool kOneSource = true;  // all media have the same source function
+layout(constant_id = 2) const bool kOneSource = true;  // all media have the same source function,
+                                                       // the same everywhere
 layout(constant_id = 3) const bool kColoured = true;   // extinction differs between channels
 layout(constant_id = 4) const uint kMediumCount = kTileMedia;
+layout(constant_id = 5) const bool kOneMedium = true;  // one medium and tint; light may vary
 layout(push_constant, scalar) uniform Push { TilePush push; };
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 layout(buffer_reference, scalar) buffer CounterBlock { TileCounters counters; };
 
-vec3 expChannels(vec3 x) { return kColoured ? exp(x) : vec3(exp(x.x)); }
+#include "../integrate/path.glsl"
+
 vec3 perChannel(vec3 x) { return kColoured ? x : vec3(x.x); }
 
 // The tile that a slot of this dispatch stands for.
 uint tileAt(uint slot) { return UintArray(push.tiles).at[slot]; }
 uvec2 tileCorner(uint tile) {
     return uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize;
+}
+
+// For passes with one workgroup per tile and one invocation per pixel: false outside the image.
+bool beginPixel(out uint tile, out uvec2 pixel) {
+    uint slot = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (slot >= push.tileCount) return false;
+    tile = tileAt(slot);
+    pixel = tileCorner(tile) +
+            uvec2(gl_LocalInvocationIndex % kTileSize, gl_LocalInvocationIndex / kTileSize);
+    return all(lessThan(pixel, frame.size));
 }
 
 RealRay makeTileRay(uvec2 pixel) {
@@ -76,9 +89,20 @@ float findEnough(vec3 extinction) {
     return push.epsilon > 0.0 && least > 0.0 ? -log(push.epsilon) / least : 3e38;
 }
 
-void countStop(float transmittance) {
+// Loops of the whole invocation: some devices silently end them after 65 535 iterations.
+const uint kMostSteps = 60000u;
+
+void countExhausted() { atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u); }
+
+void countStop(float bound) {
     atomicAdd(CounterBlock(push.counters).counters.stopped, 1u);
-    atomicMax(CounterBlock(push.counters).counters.transmittance, floatBitsToUint(transmittance));
+    atomicMax(CounterBlock(push.counters).counters.bound, floatBitsToUint(bound));
 }
+
+float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// What a pixel may be off that has stopped at transmittance `rest` and shows what is behind the
+// media, while media of radiances up to `media` (per optical depth) may be in between.
+float boundError(vec3 rest, vec3 media, vec3 behind) { return largest(rest * max(media, behind)); }
 
 #endif

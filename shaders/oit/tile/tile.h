@@ -13,19 +13,20 @@ struct TilePush {
     uint64_t classes;   // uint[tiles], classify: largest class that a pixel needs
     uint64_t counters;  // TileCounters
     uint tileCount;
-    float epsilon;  // composite: pixels stop at transmittances below it
+    float epsilon;      // pixels stop at transmittances below it
+    float largestTint;  // of all media
 };
 
 // What the pixels of a tile need, in rising order of cost.
 BRUME_CONST uint kClassEmpty = 0u;    // no medium
 BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one common source
-BRUME_CONST uint kClassVolumes = 2u;  // bricks, boxes and spheres of one common source
+BRUME_CONST uint kClassVolumes = 2u;  // bricks and boxes of one medium; spheres of one source too
 BRUME_CONST uint kClassLists = 3u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {
-    uint stopped;        // invocations that stopped before their last medium
-    uint transmittance;  // bits of the largest transmittance at which one stopped
-    uint exhausted;      // pixels at which the device may have ended the loops
+    uint stopped;    // invocations that stopped before their last medium
+    uint bound;      // bits of the largest radiance that a pixel may be off for that
+    uint exhausted;  // pixels at which the device may have ended the loops
 };
 
 // Media whose source the composite works out once per ray.
@@ -41,6 +42,6 @@ BRUME_CONST uint kBindingTileResult = 8u;  // RGBA32F
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::TilePush) == 64);
+static_assert(sizeof(brume::shader::TilePush) == 72);
 #endif
 #endif

@@ -5,7 +5,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../../common/density.glsl"
-#include "../../common/exponential.glsl"
 #include "../../common/lighting.glsl"
 #include "media.glsl"
 
@@ -17,8 +16,6 @@ layout(binding = kBindingTileResult, rgba32f) writeonly uniform image2D result;
 // Of Gauss's rule with two points, exact for cubics.
 const vec2 kNodes = vec2(0.2113248654051871, 0.7886751345948129);
 
-// Loops of the whole invocation: some devices silently end them after 65 535 iterations.
-const uint kMostSteps = 60000u;
 uint steps = 0u;
 
 float integrateBox(RealRay ray, float limit, BoxData box) {
@@ -40,13 +37,9 @@ float integrateBox(RealRay ray, float limit, BoxData box) {
 }
 
 void main() {
-    uint slot = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (slot >= push.tileCount) return;
-    uint tile = tileAt(slot);
-    uvec2 pixel =
-        tileCorner(tile) + uvec2(gl_LocalInvocationIndex % kTileSize,
-                                 gl_LocalInvocationIndex / kTileSize);
-    if (any(greaterThanEqual(pixel, frame.size))) return;
+    uint tile;
+    uvec2 pixel;
+    if (!beginPixel(tile, pixel)) return;
     RealRay ray = makeTileRay(pixel);
     float limit = texelFetch(opaqueT, ivec2(pixel), 0).x;
     uint box = UintArray(push.boxOffsets).at[tile];
@@ -69,11 +62,6 @@ void main() {
         addLength(sum, lost, densityLength(data, findChord(ray, limit, data)));
         ++sphere;
     }
-    if (steps >= kMostSteps)
-        atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
-    else if (box < lastBox || sphere < lastSphere)
-        countStop(push.epsilon);
-
     vec3 light = scatteredRadiance(medium, vec3(0), vec3(ray.direction));
     vec3 source = medium.extinction * medium.albedo * light + medium.emission;
     vec3 depth = min(extinction * sum, vec3(1e30));
@@ -81,4 +69,9 @@ void main() {
     vec3 radiance = source * (sum * meanDecay(depth, rest));
     vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
     imageStore(result, ivec2(pixel), vec4(radiance + rest * behind, 1.0));
+    vec3 most = push.largestTint * source / max(extinction, vec3(1e-30));
+    if (steps >= kMostSteps)
+        countExhausted();
+    else if (box < lastBox || sphere < lastSphere)
+        countStop(boundError(rest, most, behind));
 }

@@ -39,10 +39,13 @@ std::vector<bench::NamedScene> findScenes(const std::string& name, const Log& lo
 }
 
 std::vector<std::string> findMethods(const std::vector<std::string>& names) {
-    if (std::find(names.begin(), names.end(), "all") == names.end()) return names;
-    std::vector<std::string> all;
-    for (const oit::MethodInfo& info : oit::listMethods()) all.emplace_back(info.name);
-    return all;
+    std::vector<std::string> methods;
+    for (const std::string& name : names) {
+        if (name != "all") methods.push_back(name);
+        if (name == "all")
+            for (const oit::MethodInfo& info : oit::listMethods()) methods.emplace_back(info.name);
+    }
+    return methods;
 }
 
 void resize(const std::string& size, scene::Scene& scene) {

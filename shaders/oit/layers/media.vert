@@ -5,17 +5,17 @@
 #include "../../common/bindings.glsl"
 #include "../../common/bounds.glsl"
 #include "../../gpu/address.glsl"
-#include "billboards.h"
+#include "layers.h"
 
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
-layout(push_constant, scalar) uniform Push { BillboardPush push; };
+layout(push_constant, scalar) uniform Push { LayerPush push; };
 
 // The medium itself goes along: fetching it in every fragment costs nearly twice as much.
 layout(location = 0) flat out vec4 centerRadius;
 layout(location = 1) flat out vec4 tintDensity;
-layout(location = 2) flat out uvec3 kind;  // medium, profile, 1 + index of the box (0: a sphere)
+layout(location = 2) flat out uvec4 kind;  // medium, profile, 1 + index of the box (0: a sphere), id
 
 void main() {
     uint slot = gl_VertexIndex / 6;
@@ -23,17 +23,17 @@ void main() {
     uint index = push.order != 0ul ? UintArray(push.order).at[slot] : slot;
     Bounds bounds = kNowhere;
     centerRadius = tintDensity = vec4(0);
-    kind = uvec3(0);
+    kind = uvec4(0);
     if (index < frame.sphereCount) {
         SphereData sphere = spheres[index];
         centerRadius = vec4(sphere.center, sphere.radius);
         tintDensity = vec4(sphere.tint, sphere.density);
-        kind = uvec3(sphere.medium, sphere.profile, 0u);
+        kind = uvec4(sphere.medium, sphere.profile, 0u, sphere.id);
         if (sphere.radius > 0.0 && sphere.density > 0.0)
             bounds = sphereBounds(sphere.center, sphere.radius);
     } else {
         BoxData box = boxes[index - frame.sphereCount];
-        kind = uvec3(volumes[box.volume].medium, 0u, 1u + index - frame.sphereCount);
+        kind = uvec4(volumes[box.volume].medium, 0u, 1u + index - frame.sphereCount, ~index);
         bounds = boxBounds(box, volumes[box.volume]);
     }
     // Two triangles: 0 1 2, 2 1 3; a hundredth of a pixel more than the bounds, or the snapping of

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossing one thing after another along a ray, front to back.
-#ifndef BRUME_OIT_LINKED_LIST_PATH_GLSL
-#define BRUME_OIT_LINKED_LIST_PATH_GLSL
+// Crossing one medium after another along a ray, front to back. The includer defines kColoured:
+// extinction differs between channels.
+#ifndef BRUME_OIT_INTEGRATE_PATH_GLSL
+#define BRUME_OIT_INTEGRATE_PATH_GLSL
 #include "../../common/exponential.glsl"
-#include "lists.h"
+#include "path.h"
 
 Path beginPath() { return Path(vec3(0), vec3(1), vec3(0), vec3(0), vec3(0), vec3(1)); }
 Sums noSums() { return Sums(0, vec3(0), vec3(0), vec3(0), vec3(0)); }
@@ -35,19 +36,6 @@ void crossConstant(inout Path path, vec3 extinction, vec3 source, float distance
     vec3 thick = source / max(extinction, vec3(1e-30)) * (1.0 - decay);
     path.radiance += before * mix(thick, thin, lessThan(depth, vec3(0.1)));
     addDepth(path, depth);
-}
-
-// A thin surface, or one side of a solid.
-void crossSurface(inout Path path, inout Sums solids, SurfaceRecord record) {
-    if (record.face == kFaceThin) {
-        path.radiance += path.surfaces * path.decay * (record.coverage * record.radiance);
-        // Thousands of faint layers: 1 - alpha rounds the same way each time, the loss does not.
-        vec3 loss = record.coverage * (1.0 - record.transmission);
-        addExactly(path.surfaces, path.surfacesLo, -(path.surfaces + path.surfacesLo) * loss);
-    } else {
-        addToSums(solids, record.face == kFaceFront ? 1.0 : -1.0, record.transmission,
-                  record.scattering);
-    }
 }
 
 bool isOpaque(Path path) {
