@@ -62,6 +62,8 @@ void crossBox(BoxData box, float limit) {
         float distance = target - at;
         if (distance <= 0.0) break;  // rounding: nothing is left
         float error = crossVarying(path, evaluateNodes(box, local, begin, at, distance), distance);
+        steps += shadowIterations;
+        shadowIterations = 0u;
         stepLimit = distance * scaleStep(error);
         at = error > 1.0 ? at : target;
     }
