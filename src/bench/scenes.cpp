@@ -175,7 +175,7 @@ scene::Scene makeSunlitScene() {
     scene::Light sun;
     sun.type = scene::LightType::Directional;
     sun.color = dvec3(3);
-    sun.direction = glm::normalize(dvec3(0.05, -1, 0.02));
+    sun.direction = dvec3(0, -1, 0);
     sun.shadow = "visibility";
     scene.lights = {sun};
     return scene;

@@ -49,7 +49,7 @@ float limitStepByLights(vec3 origin, vec3 rayDirection, float place) {
         limit = min(limit, min(lights[i].type != kLightDirectional
                                    ? limitStepByLight(lights[i], origin, rayDirection, place)
                                    : kNoCrossing,
-                               shadowStep(i)));
+                               shadowStep(i, origin + rayDirection * place, rayDirection)));
     return limit;
 }
 

@@ -47,8 +47,8 @@ BRUME_CONST uint kUnsortedBit = 0x80000000u;   // in progress: resolve has to so
 
 // What a triangle leaves in a list.
 struct SurfaceRecord {
-    vec3 radiance;      // thin: reflected and emitted, not multiplied by the coverage
-    float coverage;     // thin
+    vec3 radiance;      // thin: reflected and emitted, not multiplied by the coverage; solid: mirrored
+    float coverage;     // thin; solid: share of light that the face mirrors
     vec3 transmission;  // thin; solid: extinction, 1/m
     vec3 scattering;    // solid: 1/m
     uint face;          // kFaceThin, kFaceFront, kFaceBack
