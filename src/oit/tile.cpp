@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What: exact order-independent transparency in compute: media sorted by their smallest distance,
 //       binned to screen tiles and composited front to back with all state in registers.
-// Source: T. Ganestam et al. and others bin splats to tiles; B. Kerbl et al.: "3D Gaussian
-//         Splatting for Real-Time Radiance Field Rendering", SIGGRAPH 2023, section 6 (tiles,
-//         depth order, early termination).
+// Source: B. Kerbl et al.: "3D Gaussian Splatting for Real-Time Radiance Field Rendering", SIGGRAPH
+//         2023, section 6 (tiles, depth order, early termination); A. Mai et al.: "EVER: Exact
+//         Volumetric Ellipsoid Rendering for Real-time View Synthesis", 2024 (events of media that
+//         overlap).
 // Differs: media have extent; whether composition in the order of a tile's list is exact is not
-//         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
-//         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
+//         assumed but found out at each pixel (classify.comp). Where media of constant density mix,
+//         a few intervals are kept in registers and crossed as soon as their order is certain
+//         (overlaps.comp). Other tiles, such as those with surfaces, get the sorted lists of each
+//         pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
 //         largest radiance that media or the background may still send (errorBound()).
 // Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
@@ -16,6 +19,7 @@
 #include <shaders/common/frame.h>
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/tile/tile.h>
+#include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/tile/classify.comp.float64.hpp>
 #include <spv/oit/tile/classify.comp.hpp>
@@ -43,7 +47,7 @@ using frame::Access;
 const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
 
 struct Settings {
-    float epsilon = 1.f / 1024;  ///< transmittance at which a pixel stops; 0: exact
+    float epsilon = 1.f / 1024;                 ///< transmittance at which a pixel stops; 0: exact
     std::uint64_t budgetBytes = 1024ull << 20;  ///< for lists
 };
 
@@ -114,12 +118,15 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     const std::vector<gpu::Binding> images = {
         {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
         {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
-    mAll = {makePipeline("classify", choose(spv::oit_tile_classify_comp,
-                                            spv::oit_tile_classify_comp_float64), {}),
-            shader::kTileSize};
-    mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
-                                                 spv::oit_tile_composite_comp_float64), images),
-                shader::kTileSize};
+    mAll = {
+        makePipeline("classify",
+                     choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64), {}),
+        shader::kTileSize};
+    mOrdered = {
+        makePipeline("composite",
+                     choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
+                     images),
+        shader::kTileSize};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
     if (!mNeeds.oneSource && canComposite()) {
         const auto overlaps =
@@ -132,22 +139,29 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                     pixels};
     }
     if (mNeeds.boxes && mNeeds.oneSource) {
-        mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
-                                                   spv::oit_tile_volumes_comp_float64), images),
-                    pixels};
+        mVolumes = {
+            makePipeline("volumes",
+                         choose(spv::oit_tile_volumes_comp, spv::oit_tile_volumes_comp_float64),
+                         images),
+            pixels};
     } else if (mNeeds.boxes && mNeeds.oneMedium) {
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
-                                        spv::oit_tile_lit_volumes_comp_float64), images),
+                                        spv::oit_tile_lit_volumes_comp_float64),
+                                 images),
                     pixels};
-        mClassifyBoxes = makePipeline("classify_boxes",
-                                      choose(spv::oit_tile_classify_boxes_comp,
-                                             spv::oit_tile_classify_boxes_comp_float64), {});
+        mClassifyBoxes = makePipeline(
+            "classify_boxes",
+            choose(spv::oit_tile_classify_boxes_comp, spv::oit_tile_classify_boxes_comp_float64),
+            {});
     }
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",
-                  .vertexSpirv = spv::common_mesh_vert,
+                  // The one that the lists are drawn with: both must see the same pixels.
+                  .vertexSpirv = device.features().shaderFloat64
+                                     ? std::span<const std::uint32_t>(spv::common_mesh_vert_float64)
+                                     : spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
                   .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
                   .pushConstantBytes = sizeof(shader::TilePush),
@@ -178,8 +192,7 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .constants = lightingConstants(mNeeds)}};
 }
 
-gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,
-                             gpu::MemoryKind memory) const {
+gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes, gpu::MemoryKind memory) const {
     return {*mDevice,
             {.name = std::string("oit.tile.") + stage,
              .bytes = std::max<std::uint64_t>(bytes, 16),
@@ -340,19 +353,19 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
         pass.writes(inputs.result, Access::ComputeWrite);
     else
         pass.readsWrites(inputs.result, Access::ComputeWrite);
-    pass.record([this, inputs, &group](gpu::Commands& commands,
-                                       const frame::PassResources& resources) {
-        commands.bindCompute(group.pipeline);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
-                      *inputs.texelSampler);
-        commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
-                      *inputs.texelSampler);
-        commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
-        commands.pushConstants(makePush(group.tiles, group.tileCount));
-        commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
-    });
+    pass.record(
+        [this, inputs, &group](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindCompute(group.pipeline);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
+            commands.pushConstants(makePush(group.tiles, group.tileCount));
+            commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
+        });
 }
 
 void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -402,8 +415,9 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
 const MethodInfo& info() {
     static const MethodInfo kInfo{
         .name = "tile",
-        .summary = "Media composited per screen tile in compute, in certified order; lists only "
-                   "where that needs them.",
+        .summary =
+            "Media composited per screen tile in compute, in certified order; lists only "
+            "where that needs them.",
         .paper = "Kerbl et al.: 3D Gaussian Splatting, 2023 (tiles); Barta, Kovacs 2011 (lists)",
         .exactness = Exactness::Bounded,
         .passes = "1 sort + 1 compute; those of linked_list for tiles with surfaces or mixtures",

@@ -35,8 +35,7 @@ void meetSphere(uint row, SphereData sphere) {
 void main() {
     uint tile;
     if (!beginColumn(tile)) return;
-    [[unroll]] for (uint row = 0u; row < kRows; ++row)
-        runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
     uint k = UintArray(push.sphereOffsets).at[tile];
     uint last = UintArray(push.sphereOffsets).at[tile + 1u];
     bool isEmpty = k == last;
@@ -51,8 +50,8 @@ void main() {
         before = index;
         SphereData sphere = spheres[index];
         isSmooth = isSmooth || (kSmooth && sphere.profile == kProfileSmooth);
-        if (!kOneSource)
-            [[unroll]] for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
+        if (!kOneSource) [[unroll]]
+            for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
     }
     k = UintArray(push.boxOffsets).at[tile];
     last = UintArray(push.boxOffsets).at[tile + 1u];

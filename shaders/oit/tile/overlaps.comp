@@ -59,8 +59,8 @@ void advance(Real goal, float stop) {
 bool insertInterval(Real begin, Real end, SphereData sphere) {
     vec3 extinction = sphere.density * media[sphere.medium].extinction;
     vec3 source = mediumSources[0];
-    [[unroll]] for (uint m = 1u; m < kMediumCount; ++m)
-        source = sphere.medium == m ? mediumSources[m] : source;
+    [[unroll]] for (uint m = 1u; m < kMediumCount; ++m) source =
+        sphere.medium == m ? mediumSources[m] : source;
     source *= sphere.tint * sphere.density;
     bool isPlaced = false;
     [[unroll]] for (uint i = 0u; i < kOpenIntervals; ++i) {
@@ -119,8 +119,8 @@ void main() {
     imageStore(result, ivec2(pixel), vec4(path.radiance + rest * behind, 1.0));
     if (findRest() < stop && push.epsilon > 0.0) {
         vec3 most = vec3(0);
-        [[unroll]] for (uint m = 0u; m < kMediumCount; ++m)
-            most = max(most, mediumSources[m] / max(media[m].extinction, vec3(1e-30)));
+        [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) most =
+            max(most, mediumSources[m] / max(media[m].extinction, vec3(1e-30)));
         countStop(boundError(rest, most * push.largestTint, behind));
     }
 }

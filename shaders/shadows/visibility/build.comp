@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kColoured = true;
 layout(constant_id = 1) const uint kCapacity = 24u;  // nodes while the curve is made
+layout(constant_id = 2) const bool kSteps = true;  // surfaces, whose steps may be moved
 layout(push_constant, scalar) uniform Push { ShadowPush push; };
 layout(buffer_reference, scalar) writeonly buffer Curves { float at[]; };
 
@@ -53,8 +54,8 @@ void updateError(uint k) {
                        squareOver(early - tBehind, 0.0, right);
     float lateError = squareOver(0.0, late - tBefore, left) +
                       squareOver(late - tBehind, tBefore - tLast, right);
-    nodeError[k] = min(lineError, min(earlyError, lateError));
-    nodeWay[k] = lineError <= min(earlyError, lateError) ? kWayLine
+    nodeError[k] = kSteps ? min(lineError, min(earlyError, lateError)) : lineError;
+    nodeWay[k] = !kSteps || lineError <= min(earlyError, lateError) ? kWayLine
                  : earlyError <= lateError               ? kWayEarly
                                                          : kWayLate;
 }
