@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions with the same bits on every device and on the CPU, built from + - * and integers only:
-// square root, sine and cosine of turns, and the three factors of the exponential integrator.
+// square root, quotient, direction and frame of vectors, sine and cosine of turns, and the three
+// factors of the exponential integrator.
 #ifndef BRUME_SHADERS_COMMON_REPLAYABLE_MATH_H
 #define BRUME_SHADERS_COMMON_REPLAYABLE_MATH_H
 
@@ -22,6 +23,42 @@ BRUME_SHARED float sqrtReplayable(float x) {
     BRUME_PRECISE float root = x * r;
     root = root + 0.5f * r * (x - root * root);
     return x < 1e-30f ? 0.0f : root;
+}
+
+/// 1 / x to 1 ulp, for 1e-30 <= |x| <= 1e30; finite or infinite, never NaN, at 0. Newton.
+BRUME_SHARED float reciprocalReplayable(float x) {
+    uint bits = floatBitsToUint(x);
+    BRUME_PRECISE float r =
+        uintBitsToFloat((bits & 0x80000000u) | (0x7ef311c3u - (bits & 0x7fffffffu)));
+    for (int i = 0; i < 4; ++i) r = r * (2.0f - x * r);
+    return r;
+}
+
+BRUME_SHARED float lengthReplayable(vec3 v) { return sqrtReplayable(dotReplayable(v, v)); }
+
+/// v as a unit vector; `fallback` if |v| is below 1e-15.
+BRUME_SHARED vec3 directionReplayable(vec3 v, vec3 fallback) {
+    BRUME_PRECISE float size = lengthReplayable(v);
+    BRUME_PRECISE vec3 direction = v * reciprocalReplayable(size > 0.0f ? size : 1.0f);
+    return size > 0.0f ? direction : fallback;
+}
+
+BRUME_SHARED vec3 crossReplayable(vec3 a, vec3 b) {
+    BRUME_PRECISE vec3 product =
+        vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return product;
+}
+
+/// Two unit vectors orthogonal to the unit vector `axis` and to each other.
+/// Source: Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017.
+BRUME_SHARED void frameReplayable(vec3 axis, BRUME_OUT(vec3) tangent, BRUME_OUT(vec3) bitangent) {
+    BRUME_PRECISE float sign = axis.z >= 0.0f ? 1.0f : -1.0f;
+    BRUME_PRECISE float a = reciprocalReplayable(0.0f - (sign + axis.z));
+    BRUME_PRECISE float b = axis.x * axis.y * a;
+    BRUME_PRECISE vec3 t = vec3(1.0f + sign * axis.x * axis.x * a, sign * b, sign * -axis.x);
+    BRUME_PRECISE vec3 u = vec3(b, sign + axis.y * axis.y * a, -axis.y);
+    tangent = t;
+    bitangent = u;
 }
 
 /// cos and sin of 2 pi turns, turns in [0, 1], to 2e-7. Taylor to degree 8 and 9 over an eighth of

@@ -5,23 +5,38 @@ layout(set = 0, binding = kBindingEmitters, scalar) readonly buffer Emitters {
 };
 layout(set = 0, binding = kBindingBatches, scalar) readonly buffer Batches { BirthBatch batches[]; };
 
-/// Walks through the batches of the tick as the index of a birth rises.
-struct BatchCursor {
-    uint index;
-    uint first;  // births of this tick before this batch
-};
+/// The batches of an instance's tick: [x, y). Those of a sub-emitter lie one instance after the
+/// other, all others are the same for all instances.
+uvec2 batchRange(Tick tick, TickTotals totals, uint instance) {
+    return tick.isChild != 0u
+               ? uvec2(instance * tick.batchStride, instance * tick.batchStride + totals.batchCount)
+               : uvec2(tick.firstBatch, tick.firstBatch + tick.batchCount);
+}
 
-BatchCursor firstBatch(Tick tick) { return BatchCursor(tick.firstBatch, 0u); }
+uint birthCountOf(Tick tick, TickTotals totals) {
+    return tick.isChild != 0u ? totals.births : tick.birthCount;
+}
 
-BirthBatch batchOf(Tick tick, uint birth, inout BatchCursor cursor) {
-    uint last = tick.firstBatch + tick.batchCount - 1u;
-    BirthBatch batch = batches[cursor.index];
-    // Bounded by their number as well: lavapipe fills workgroups up to its vector width with
-    // lanes whose loads give 0, and they would never leave.
-    while (birth >= cursor.first + batch.count && cursor.index < last) {
-        cursor.first += batch.count;
-        ++cursor.index;
-        batch = batches[cursor.index];
+/// The batch that holds a birth of the tick: the last one with first <= birth.
+uint findBatch(uvec2 range, uint birth) {
+    uint low = range.x;
+    uint high = range.y;
+    for (uint i = 0u; i < 32u && high > low + 1u; ++i) {
+        uint middle = low + (high - low) / 2u;
+        bool isBelow = batches[middle].first <= birth;
+        low = isBelow ? middle : low;
+        high = isBelow ? high : middle;
+    }
+    return low;
+}
+
+/// Moves on to the batch of the next birth. Bounded by their number as well: lavapipe fills
+/// workgroups up to its vector width with lanes whose loads give 0, and they would never leave.
+BirthBatch batchOf(uvec2 range, uint birth, inout uint index) {
+    BirthBatch batch = batches[index];
+    while (birth >= batch.first + batch.count && index + 1u < range.y) {
+        ++index;
+        batch = batches[index];
     }
     return batch;
 }

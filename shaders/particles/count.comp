@@ -5,30 +5,42 @@
 #include "tick.glsl"
 
 #include "effect_block.glsl"
+layout(set = 0, binding = kBindingTriangles, scalar) readonly buffer TrianglesBlock { EmitterTriangle triangles[]; };
+#define BRUME_TRIANGLES triangles
 #include "spawn.h"
 #include "step.h"
 
 #include "births.glsl"
 
 layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals; };
+layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
+layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
 layout(set = 0, binding = kBindingChunks, scalar) writeonly buffer ChunksBlock { uint chunks[]; };
 
 void main() {
     Tick tick = ticks[push.slot];
     uint chunk = threadIndex();
-    if (chunk >= tick.survivorChunks + tick.birthChunks) return;
+    if (chunk >= tick.chunks * tick.instances) return;
+    uint instance = chunk / tick.chunks;
+    uint local = chunk - instance * tick.chunks;
+    TickTotals before = totals[instance];
 
     uint count = 0u;
-    uvec2 survivors = survivorRange(tick, chunk, totals.counters.alive);
-    for (uint i = survivors.x; i < survivors.y; ++i) count += isAlive(lives[i], tick.index) ? 1u : 0u;
+    uvec2 survivors = survivorRange(tick, local, before.counters.alive);
+    uint base = instance * tick.capacity;
+    for (uint i = survivors.x; i < survivors.y; ++i)
+        count += isAlive(lives[base + i], tick.index) ? 1u : 0u;
 
-    uvec2 births = birthRange(tick, chunk);
-    BatchCursor cursor = firstBatch(tick);
+    RandomStream random = instances[instance].random;
+    uvec2 births = birthRange(tick, local, birthCountOf(tick, before));
+    uvec2 range = batchRange(tick, before, instance);
+    uint index = findBatch(range, births.x);
     for (uint i = births.x; i < births.y; ++i) {
-        BirthBatch batch = batchOf(tick, i, cursor);
+        BirthBatch batch = batchOf(range, i, index);
         EmitterParameters emitter = emitters[batch.emitter];
-        ParticleLife life = spawnLife(effect.random, emitter, batch, i - cursor.first, tick.index);
+        uint inBatch = i - batch.first;
+        ParticleLife life = spawnLife(random, emitter, batch.firstBirthIndex + inBatch,
+                                      remainingOf(batch, inBatch), tick.index);
         count += isAlive(life, tick.index) ? 1u : 0u;
     }
     chunks[chunk] = count;

@@ -7,21 +7,25 @@
 
 #include "../common/random.h"
 #include "../common/shared_math.h"
-#include "modules/curl_noise.h"
+#include "modules/modules.h"
 
 BRUME_STRUCTS_BEGIN
 
-BRUME_CONST uint kMaxFieldsPerType = 4u;    // e.g. curl_noise modules in one effect
+BRUME_CONST uint kMaxModulesPerType = 8u;   // e.g. curl_noise modules in one effect
+BRUME_CONST uint kMaxSubEmitters = 4u;      // of one effect
+BRUME_CONST uint kMaxChildrenPerTick = 4096u;  // of one particle and sub-emitter
 BRUME_CONST uint kMaxAppearanceKeys = 64u;  // over-life keys at different ages
+BRUME_CONST uint kMaxSpeedKeys = 16u;       // by-speed keys at different speeds
 
 // Random channels of a birth; each gives four words.
-BRUME_CONST uint kChannelMotion = 0u;  // lifetime, speed, two for the direction
-BRUME_CONST uint kChannelShape = 1u;   // the place in the shape
+BRUME_CONST uint kChannelMotion = 0u;    // lifetime, speed, two for the direction
+BRUME_CONST uint kChannelShape = 1u;     // the place in the shape
+BRUME_CONST uint kChannelChildren = 2u;  // and up: how many children, per sub-emitter
 
 /// When a particle was born and for how long; all that decides its death by age.
 struct ParticleLife {
     uint birthTick;        // the tick in which it was born
-    float birthRemaining;  // part of that tick that was left at birth, [0, 1]
+    float birthRemaining;  // part of that tick that was left at birth, [0, 1]; sign bit: it sticks
     float lifetimeTicks;   // negative: killed
 };
 
@@ -44,32 +48,81 @@ struct StepParameters {
     float velocityGain;  // loss / drag rate, s
     float positionGain;  // (tickSeconds - velocityGain) / drag rate, s^2
     uint dragHalvings;   // least n with dragPerTick <= 2^n
+    float restSpeed;     // slower hits do not bounce, m/s
+    float ticksPerSecond;
 };
 
-/// One emitter; ranges as low and (high - low).
+/// One emitter; ranges as low and (high - low). See spawn.h for the shapes.
 struct EmitterParameters {
     vec3 position;
-    uint shape;  // as scene::EmitterShape: 0 point, 1 sphere, 2 box, 3 disc (normal to axis)
-    vec3 size;   // box, full edge lengths
-    float radius;
-    vec3 axis;         // unit; with tangent and bitangent orthonormal
-    float coneHeight;  // 1 - cos(spread)
+    uint shape;     // kShape*
+    vec3 size;      // box: full edge lengths; line: from its start to its end
+    float radius;   // sphere, disc, ring, cone (at its base)
+    vec3 axis;      // of the shape: unit; with tangent and bitangent orthonormal
+    float height;   // cone
     vec3 tangent;
-    float speedLow;
+    float innerRadius2;  // disc: (inner radius / radius)^2
     vec3 bitangent;
+    uint isSurface;   // sphere, box, cone: births on the surface, not in the volume
+    vec3 direction;   // of the velocity: unit; with the next two orthonormal
+    uint velocityMode;  // kVelocity*
+    vec3 directionTangent;
+    float coneHeight;  // 1 - cos(spread)
+    vec3 directionBitangent;
+    float speedLow;
     float speedRange;
     float lifetimeLowTicks;
     float lifetimeRangeTicks;
+    float inheritPerTick;   // share of the emitter's velocity, times the tick rate
+    float inheritSpeed;     // share of the parent's velocity
+    float faceX, faceXY;    // box surface: shares of the area of the faces across x, across x and y
+    uint firstTriangle;     // mesh
+    uint triangleCount;
 };
 
-/// Consecutive births of one emitter in one tick. Birth i has birthRemaining = max(0, remaining - i
-/// * remainingStep).
+/// A triangle that emits; `rank` / 2^32 is the share of the area in the triangles before it.
+struct EmitterTriangle {
+    vec3 corner;
+    vec3 edge1;
+    vec3 edge2;
+    vec3 normal;  // unit, outwards
+    uint rank;
+};
+
+/// Consecutive births of one emitter in one tick. Birth i has birthRemaining r = max(0, remaining -
+/// i * remainingStep), when the emitter was at offset - r * motion.
 struct BirthBatch {
     uint emitter;
     uint firstBirthIndex;
     uint count;
+    uint first;  // births of this tick before this batch
     float remaining;
     float remainingStep;
+    uint strand;    // birth index of the parent
+    vec3 offset;    // of the emitter from its place at the end of the tick, m
+    vec3 motion;    // of the emitter in the tick, m
+    vec3 velocity;  // of the parent, m/s
+};
+
+/// A sub-emitter, in the effect of the parents.
+struct SubEmitter {
+    uint trigger;         // kOn*
+    uint index;           // among those of its effect
+    float countLow;       // children per event; the fraction is a probability
+    float countRange;
+    float ratePerTick;    // children per tick, for trails
+    float ticksPerBirth;  // 1 / ratePerTick
+};
+
+/// What the modules know about the current tick besides their parameters.
+struct TickFields {
+    CurlNoiseShift curlNoise[kMaxModulesPerType];
+};
+
+/// What makes an instance of an effect differ from the others.
+struct InstanceParameters {
+    RandomStream random;
+    uint noiseSeed;
 };
 
 /// A segment of the piecewise-linear curves over normalised age: it adds slope * clamp(age - start,
@@ -82,21 +135,37 @@ struct AppearanceSegment {
     vec3 tintSlope;
 };
 
-/// Radius, density and tint over normalised age: the values at age 0 and the segments from there.
+/// The same over speed in m/s, for factors of radius and density.
+struct SpeedSegment {
+    float start;
+    float width;
+    float radiusSlope;
+    float densitySlope;
+};
+
+/// Radius, density and tint over normalised age: the values at age 0 and the segments from there;
+/// factors of radius and density over speed likewise, from 0 m/s.
 struct AppearanceParameters {
     float radius;
     float density;
     vec3 tint;
     uint segmentCount;
     AppearanceSegment segments[kMaxAppearanceKeys];
+    float radiusFactor;
+    float densityFactor;
+    uint speedSegmentCount;
+    SpeedSegment speedSegments[kMaxSpeedKeys];
 };
 
 /// All that the simulation of an effect reads and never writes, besides its emitters.
 struct EffectParameters {
     StepParameters step;
-    RandomStream random;
-    uint curlNoiseCount;
-    CurlNoise curlNoise[kMaxFieldsPerType];
+#define BRUME_DECLARE_MODULE(Type, member, constant) \
+    uint member##Count;                              \
+    Type member[kMaxModulesPerType];
+    BRUME_MODULE_TYPES(BRUME_DECLARE_MODULE)
+#undef BRUME_DECLARE_MODULE
+    SubEmitter subEmitters[kMaxSubEmitters];
     AppearanceParameters appearance;
 };
 
@@ -106,32 +175,39 @@ struct ParticleCounters {
     uint born;
     uint died;
     uint rejected;  // births without a free slot
+    uint killed;    // of those that died: neither finite place nor finite velocity
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(Particle) == 40);
-static_assert(sizeof(StepParameters) == 48);
-static_assert(offsetof(EmitterParameters, lifetimeLowTicks) == 80 &&
-              sizeof(EmitterParameters) == 88);
-static_assert(sizeof(BirthBatch) == 20);
+static_assert(sizeof(StepParameters) == 56);
+static_assert(offsetof(EmitterParameters, directionBitangent) == 112 &&
+              sizeof(EmitterParameters) == 164);
+static_assert(sizeof(BirthBatch) == 64);
+static_assert(sizeof(EmitterTriangle) == 52);
 static_assert(sizeof(AppearanceSegment) == 28);
-static_assert(offsetof(EffectParameters, curlNoise) == 64);
-static_assert(offsetof(EffectParameters, appearance) == 64 + 4 * sizeof(CurlNoise));
+static_assert(offsetof(EffectParameters, curlNoise) == 60);
 #endif
 
 BRUME_STRUCTS_END
 
 // Functions that look into the effect's arrays take it as an argument in C++; shaders define
 // BRUME_EFFECT as the block they have bound, because a copy of the whole struct would be loaded per
-// call.
+// call, and each count as a specialisation constant (effect_block.glsl).
 #ifdef __cplusplus
 #define BRUME_EFFECT effect
 #define BRUME_EFFECT_PARAMETER const EffectParameters &effect,
 #define BRUME_EFFECT_ARGUMENT effect,
-#define BRUME_CURL_NOISE_COUNT effect.curlNoiseCount
+#define BRUME_COUNT(member) effect.member##Count
+#define BRUME_TRIANGLES triangles
+#define BRUME_TRIANGLES_PARAMETER const EmitterTriangle *triangles,
+#define BRUME_TRIANGLES_ARGUMENT triangles,
 #else
+#define BRUME_TRIANGLES_PARAMETER
+#define BRUME_TRIANGLES_ARGUMENT
 #define BRUME_EFFECT_PARAMETER
 #define BRUME_EFFECT_ARGUMENT
+#define BRUME_COUNT(member) member##Count
 #endif
 
 #endif

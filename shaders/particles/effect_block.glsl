@@ -5,7 +5,9 @@ layout(set = 0, binding = kBindingEffect, scalar) readonly buffer EffectBlock {
     EffectParameters effect;
 };
 // Modules without use cost nothing: their loops vanish when the pipeline is compiled.
-layout(constant_id = 1) const uint kCurlNoiseCount = 0u;
+#define BRUME_DECLARE_COUNT(Type, member, constant) \
+    layout(constant_id = constant) const uint member##Count = 0u;
+BRUME_MODULE_TYPES(BRUME_DECLARE_COUNT)
+layout(constant_id = 32) const uint kSubEmitterCount = 0u;
 
 #define BRUME_EFFECT effect
-#define BRUME_CURL_NOISE_COUNT kCurlNoiseCount

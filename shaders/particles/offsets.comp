@@ -9,20 +9,22 @@ layout(set = 0, binding = kBindingGroups, scalar) writeonly buffer GroupsBlock {
 
 void main() {
     Tick tick = ticks[push.slot];
-    uint group = threadIndex();
+    uint thread = threadIndex();
+    if (thread >= tick.groups * tick.instances) return;
+    uint instance = thread / tick.groups;
+    uint group = thread - instance * tick.groups;
     uint survivorGroups = groupOf(tick, tick.survivorChunks);
-    uint chunkCount = tick.survivorChunks + tick.birthChunks;
     bool isBirth = group >= survivorGroups;
     uint begin = isBirth ? tick.survivorChunks + (group - survivorGroups) * kChunksPerGroup
                          : group * kChunksPerGroup;
-    uint end = min(begin + kChunksPerGroup, isBirth ? chunkCount : tick.survivorChunks);
-    if (begin >= end) return;
+    uint end = min(begin + kChunksPerGroup, isBirth ? tick.chunks : tick.survivorChunks);
 
     uint sum = 0u;
-    for (uint i = begin; i < end; ++i) {
+    uint base = instance * tick.chunks;
+    for (uint i = base + begin; i < base + end; ++i) {
         uint count = chunks[i];
         chunks[i] = sum;
         sum += count;
     }
-    groups[group] = sum;
+    groups[thread] = sum;
 }

@@ -1,12 +1,14 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Last pass of a tick: survivors advance and close up, births are appended.
+// Last pass of a tick: survivors advance and close up, births are appended; what sub-emitters make
+// of it is listed per chunk.
 #extension GL_GOOGLE_include_directive : require
 #include "tick.glsl"
 
 #include "effect_block.glsl"
-#include "spawn.h"
-#include "step.h"
+layout(set = 0, binding = kBindingTriangles, scalar) readonly buffer TrianglesBlock { EmitterTriangle triangles[]; };
+#define BRUME_TRIANGLES triangles
+#include "children.h"
 
 #include "births.glsl"
 
@@ -20,51 +22,103 @@ layout(set = 0, binding = kBindingNewLives, scalar) writeonly buffer NewLivesBlo
 layout(set = 0, binding = kBindingNewBirthIndices, scalar) writeonly buffer NewBirthIndicesBlock { uint newBirthIndices[]; };
 layout(set = 0, binding = kBindingChunks, scalar) readonly buffer ChunksBlock { uint chunks[]; };
 layout(set = 0, binding = kBindingGroups, scalar) readonly buffer GroupsBlock { uint groups[]; };
-layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals; };
+layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotals totals[]; };
+layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
+layout(set = 0, binding = kBindingRecords, scalar) writeonly buffer RecordsBlock { BirthBatch records[]; };
+layout(set = 0, binding = kBindingRecordCounts, scalar) writeonly buffer RecordCountsBlock { RecordCount recordCounts[]; };
 
-void write(uint slot, Particle particle) {
+/// Where an invocation stands.
+struct Cursor {
+    uint slot;    // of the next particle to write, in the instance
+    uint base;    // first slot of the instance
+    uint killed;  // not finite
+    uint firstRecord;  // of its chunk, for sub-emitter 0
+    uint recordStride;  // from one sub-emitter to the next
+    RecordCount counts[kMaxSubEmitters];
+};
+
+void write(inout Cursor cursor, Particle particle) {
+    uint slot = cursor.base + cursor.slot;
     newPositions[slot] = particle.position;
     newVelocities[slot] = particle.velocity;
     newLives[slot] = particle.life;
     newBirthIndices[slot] = particle.birthIndex;
+    ++cursor.slot;
+    cursor.killed += particle.life.lifetimeTicks == kNotFinite ? 1u : 0u;
 }
 
-void stepSurvivors(Tick tick, uvec2 range, uint slot) {
-    StepParameters parameters = effect.step;
-    for (uint i = range.x; i < range.y; ++i) {
-        Particle particle;
-        particle.life = lives[i];
-        if (isAlive(particle.life, tick.index)) {
-            particle.position = positions[i];
-            particle.velocity = velocities[i];
-            particle.birthIndex = birthIndices[i];
-            stepParticle(parameters, particle);
-            write(slot, particle);
-            ++slot;
+void listChildren(inout Cursor cursor, RandomStream random, ParticleTick event) {
+    for (uint k = 0u; k < kSubEmitterCount; ++k) {
+        BirthBatch batch = childrenOf(effect.subEmitters[k], random, event);
+        if (batch.count > 0u) {
+            records[k * cursor.recordStride + cursor.firstRecord + cursor.counts[k].records] = batch;
+            ++cursor.counts[k].records;
+            cursor.counts[k].births += batch.count;
         }
     }
 }
 
-void appendBirths(Tick tick, uvec2 range, uint slot) {
+/// A particle that is alive or, where that has sub-emitters, dies in this tick.
+void advance(inout Cursor cursor, StepParameters parameters, InstanceParameters instance,
+             Tick tick, bool isBirth, bool survives, Particle particle) {
+    ParticleTick event = followTick(parameters, tick.fields, instance.noiseSeed, tick.index, isBirth,
+                                    survives || kSubEmitterCount == 0u, particle);
+    if (kSubEmitterCount > 0u) listChildren(cursor, instance.random, event);
+    if (survives) write(cursor, particle);
+}
+
+void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cursor cursor) {
     StepParameters parameters = effect.step;
-    BatchCursor cursor = firstBatch(tick);
     for (uint i = range.x; i < range.y; ++i) {
-        BirthBatch batch = batchOf(tick, i, cursor);
-        Particle particle = spawnParticle(effect.random, emitters[batch.emitter], batch,
-                                          i - cursor.first, tick.index);
-        if (isAlive(particle.life, tick.index) && slot < tick.capacity) {
-            stepNewParticle(parameters, particle);
-            write(slot, particle);
-            ++slot;
+        Particle particle;
+        uint slot = cursor.base + i;
+        particle.life = lives[slot];
+        bool survives = isAlive(particle.life, tick.index);
+        if (survives || kSubEmitterCount > 0u) {
+            particle.position = positions[slot];
+            particle.velocity = velocities[slot];
+            particle.birthIndex = birthIndices[slot];
+            advance(cursor, parameters, instance, tick, false, survives, particle);
         }
+    }
+}
+
+void appendBirths(Tick tick, TickTotals before, uint instanceIndex, InstanceParameters instance,
+                  uvec2 births, inout Cursor cursor) {
+    StepParameters parameters = effect.step;
+    uvec2 range = batchRange(tick, before, instanceIndex);
+    uint index = findBatch(range, births.x);
+    for (uint i = births.x; i < births.y; ++i) {
+        BirthBatch batch = batchOf(range, i, index);
+        Particle particle = spawnFromBatch(instance.random, emitters[batch.emitter], batch,
+                                           i - batch.first, tick.index);
+        bool survives = isAlive(particle.life, tick.index);
+        if ((survives || kSubEmitterCount > 0u) && cursor.slot < tick.capacity)
+            advance(cursor, parameters, instance, tick, true, survives, particle);
     }
 }
 
 void main() {
     Tick tick = ticks[push.slot];
     uint chunk = threadIndex();
-    if (chunk >= tick.survivorChunks + tick.birthChunks) return;
-    uint slot = groups[groupOf(tick, chunk)] + chunks[chunk];
-    stepSurvivors(tick, survivorRange(tick, chunk, totals.previousAlive), slot);
-    appendBirths(tick, birthRange(tick, chunk), slot);
+    if (chunk >= tick.chunks * tick.instances) return;
+    uint instanceIndex = chunk / tick.chunks;
+    uint local = chunk - instanceIndex * tick.chunks;
+    TickTotals before = totals[instanceIndex];
+    InstanceParameters instance = instances[instanceIndex];
+
+    Cursor cursor;
+    cursor.slot = groups[instanceIndex * tick.groups + groupOf(tick, local)] + chunks[chunk];
+    cursor.base = instanceIndex * tick.capacity;
+    cursor.killed = 0u;
+    cursor.firstRecord = chunk * tick.chunkSize;
+    cursor.recordStride = tick.chunks * tick.instances * tick.chunkSize;
+    for (uint k = 0u; k < kSubEmitterCount; ++k) cursor.counts[k] = RecordCount(0u, 0u);
+
+    stepSurvivors(tick, instance, survivorRange(tick, local, before.previousAlive), cursor);
+    appendBirths(tick, before, instanceIndex, instance,
+                 birthRange(tick, local, birthCountOf(tick, before)), cursor);
+    if (cursor.killed > 0u) atomicAdd(totals[instanceIndex].counters.killed, cursor.killed);
+    for (uint k = 0u; k < kSubEmitterCount; ++k)
+        recordCounts[k * tick.chunks * tick.instances + chunk] = cursor.counts[k];
 }

@@ -12,17 +12,18 @@ uint threadIndex() {
            gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
 }
 
-/// Existing particles of a chunk: [x, y); empty for chunks of births.
+/// Existing particles of a chunk: [x, y); empty for chunks of births. Counted in the instance.
 uvec2 survivorRange(Tick tick, uint chunk, uint alive) {
     uint begin = chunk < tick.survivorChunks ? chunk * tick.chunkSize : alive;
     return uvec2(begin, min(begin + tick.chunkSize, alive));
 }
 
-/// Births of a chunk: [x, y), counted over the tick; empty for chunks of existing particles.
-uvec2 birthRange(Tick tick, uint chunk) {
-    uint begin = chunk < tick.survivorChunks ? tick.birthCount
+/// Births of a chunk: [x, y), counted over the tick of the instance; empty for chunks of existing
+/// particles.
+uvec2 birthRange(Tick tick, uint chunk, uint birthCount) {
+    uint begin = chunk < tick.survivorChunks ? birthCount
                                              : (chunk - tick.survivorChunks) * tick.chunkSize;
-    return uvec2(begin, min(begin + tick.chunkSize, tick.birthCount));
+    return uvec2(begin, min(begin + tick.chunkSize, birthCount));
 }
 
 /// The group of a chunk; births begin a new one.

@@ -110,6 +110,8 @@ void addSimulate(CLI::App& app, Invocation& invocation) {
     CLI::App* command = app.add_subcommand("simulate", "Run an effect without rendering it");
     command->add_option("effect", a.effect, "Effect file (.json)")->required();
     command->add_option("--frames", a.frames, "Frames to simulate")->capture_default_str();
+    command->add_option("--from", a.from, "Go on from a file written by --checkpoint");
+    command->add_option("--checkpoint", a.checkpoint, "Write the state after the frames to a file");
     command->add_option("--dt", a.secondsPerFrame, "Seconds per frame (default 1/24)");
     command->add_option("--seed", a.seed, "Seed of the random numbers")->capture_default_str();
     command->add_flag("--hash", a.hash, "Print a hash of the particles");
@@ -135,7 +137,7 @@ void addList(CLI::App& app, Invocation& invocation) {
     command->add_option("what", a.what, "methods, shadows, modules, devices or scenes")
         ->required()
         ->check(CLI::IsMember({"methods", "shadows", "modules", "devices", "scenes"}));
-    command->add_flag("--markdown", a.markdown, "Methods as the table of the README");
+    command->add_flag("--markdown", a.markdown, "Methods as the table of the README, modules as that of docs/particles.md");
     command->callback(
         [&] { invocation.command = [&](const Log& log) { runList(invocation.list, log); }; });
 }

@@ -56,15 +56,17 @@ std::vector<scene::MediumSphere> simulateOnCpu(const scene::Scene& scene) {
     std::vector<scene::MediumSphere> spheres;
     // Ids above those that prepareScene() gives, so that ties are broken alike in every run.
     std::uint64_t firstId = std::uint64_t{1} << 30;
-    for (std::size_t i = 0; i < scene.effects.size(); ++i) {
-        const scene::EffectInstance& effect = scene.effects[i];
-        particles::CpuSimulation simulation(effect.effect, effect.seed,
-                                            static_cast<std::uint32_t>(i));
-        simulation.advanceTo(effect.time);
-        const auto added = simulation.spheres(effect.worldFromEffect, effect.medium,
-                                              static_cast<std::uint32_t>(firstId));
-        spheres.insert(spheres.end(), added.begin(), added.end());
-        firstId += simulation.counters().born;
+    for (std::size_t i = 0; i < scene.effects.size();) {
+        const scene::EffectInstance& root = scene.effects[i];
+        particles::CpuSimulation simulation(root.effect, root.seed, static_cast<std::uint32_t>(i));
+        simulation.advanceTo(root.time);
+        // Its populations are the next entries of the scene.
+        for (std::uint32_t p = 0; p < simulation.populationCount(); ++p, ++i) {
+            const auto added = simulation.spheres(root.worldFromEffect, scene.effects[i].medium,
+                                                  static_cast<std::uint32_t>(firstId), p);
+            spheres.insert(spheres.end(), added.begin(), added.end());
+            firstId += simulation.counters(p).born + simulation.counters(p).rejected;
+        }
     }
     return spheres;
 }

@@ -81,6 +81,7 @@ std::string toJson(const SimulationRow& row) {
                  {"born", row.born},
                  {"died", row.died},
                  {"rejected", row.rejected},
+                 {"killed", row.killed},
                  {"timeMs", timeJson(row.time)},
                  {"device", row.device},
                  {"driver", row.driver},

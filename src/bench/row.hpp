@@ -44,7 +44,7 @@ struct SimulationRow {
     double secondsPerFrame = 0;
     std::uint64_t ticks = 0;
     std::uint64_t hash = 0;  ///< over all bits of all particles; 16 hexadecimal digits in JSON
-    std::uint64_t alive = 0, born = 0, died = 0, rejected = 0;
+    std::uint64_t alive = 0, born = 0, died = 0, rejected = 0, killed = 0;
     TimeSummary time;  ///< ms per frame
     std::string device;
     std::string driver;

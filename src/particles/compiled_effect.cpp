@@ -2,97 +2,86 @@
 #include <fmt/format.h>
 #include <shaders/particles/appearance.h>
 #include <core/error.hpp>
+#include <particles/appearance_curves.hpp>
 #include <particles/compiled_effect.hpp>
+#include <particles/effect_check.hpp>
 #include <particles/modules/module.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace brume::particles {
 namespace {
 
-void check(bool isAllowed, const std::string& where, const std::string& problem) {
-    if (!isAllowed) throw inputError("setting up an effect", where, problem);
+constexpr std::uint32_t kMaxPopulations = 16;
+
+void makeFrames(const scene::Emitter& emitter, shader::EmitterParameters& p) {
+    dvec3 tangent, bitangent;
+    // Only these shapes have an axis of their own; others follow the direction.
+    const bool hasAxis = emitter.shape == scene::EmitterShape::Disc ||
+                         emitter.shape == scene::EmitterShape::Ring ||
+                         emitter.shape == scene::EmitterShape::Cone;
+    const dvec3 direction = glm::normalize(emitter.direction);
+    const dvec3 axis = hasAxis ? glm::normalize(emitter.normal) : direction;
+    makeFrame(axis, tangent, bitangent);
+    p.axis = vec3(axis);
+    p.tangent = vec3(tangent);
+    p.bitangent = vec3(bitangent);
+    makeFrame(direction, tangent, bitangent);
+    p.direction = vec3(direction);
+    p.directionTangent = vec3(tangent);
+    p.directionBitangent = vec3(bitangent);
 }
 
-void checkRange(double value, double lo, double hi, const std::string& where,
-                const std::string& name) {
-    check(value >= lo && value <= hi, where,
-          fmt::format("{} is {}, {} to {} allowed", name, value, lo, hi));
-}
-
-void checkInterval(const dvec2& range, double lo, double hi, const std::string& where,
-                   const std::string& name) {
-    checkRange(range.x, lo, hi, where, name);
-    checkRange(range.y, lo, hi, where, name);
-    check(range.x <= range.y, where,
-          fmt::format("{} runs from {} down to {}, [low, high] allowed", name, range.x, range.y));
-}
-
-void checkEmitter(const scene::Emitter& emitter, const std::string& where) {
-    checkRange(emitter.rate, 0, 1e9, where, "'rate'");
-    check(emitter.duration >= 0, where,
-          fmt::format("'duration' is {}, >= 0 allowed", emitter.duration));
-    for (const scene::Burst& burst : emitter.bursts)
-        checkRange(burst.time, 0, 1e9, where, "'time' of a burst");
-    checkInterval(emitter.lifetime, 0, 1e9, where, "'lifetime'");
-    checkInterval(emitter.speed, -1e6, 1e6, where, "'speed'");
-    checkRange(emitter.radius, 0, 1e6, where, "'radius'");
-    checkRange(emitter.spread, 0, kPi * (1 + 1e-12), where, "'spread'");
-    for (int axis = 0; axis < 3; ++axis) {
-        checkRange(emitter.size[axis], 0, 1e6, where, "'size'");
-        checkRange(emitter.position[axis], -1e9, 1e9, where, "'position'");
-        checkRange(emitter.direction[axis], -1e9, 1e9, where, "'direction'");
+/// The triangles of a mesh with their shares of its area, at the end of `all`; those without area
+/// are left out.
+void addTriangles(const scene::Emitter& emitter, std::vector<shader::EmitterTriangle>& all,
+                  shader::EmitterParameters& p) {
+    p.firstTriangle = static_cast<std::uint32_t>(all.size());
+    double area = 0;
+    for (const scene::EmitterTriangle& t : *emitter.triangles)
+        area += glm::length(glm::cross(t.b - t.a, t.c - t.a));
+    double before = 0;
+    for (const scene::EmitterTriangle& t : *emitter.triangles) {
+        const dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+        const double size = glm::length(normal);
+        if (!(size > 1e-12 * area)) continue;
+        const double rank = std::min(std::floor(before / area * 4294967296.0), 4294967295.0);
+        all.push_back({vec3(t.a), vec3(t.b - t.a), vec3(t.c - t.a), vec3(normal / size),
+                       static_cast<std::uint32_t>(rank)});
+        before += size;
     }
-    check(glm::length(emitter.direction) > 0, where, "'direction' is zero, a direction allowed");
-}
-
-template <typename T>
-void checkCurve(const scene::Curve<T>& curve, const std::string& name) {
-    check(!curve.keys.empty(), name, "the curve has no keys, at least one allowed");
-    for (std::size_t i = 0; i < curve.keys.size(); ++i) {
-        checkRange(curve.keys[i].first, 0, 1, name, "the age of a key");
-        check(i == 0 || curve.keys[i - 1].first <= curve.keys[i].first, name,
-              "the keys are not sorted by age, rising ages allowed");
-    }
-}
-
-void checkEffect(const scene::Effect& effect) {
-    constexpr std::uint32_t kMaxCapacity = 1u << 26u;
-    check(effect.capacity >= 1 && effect.capacity <= kMaxCapacity, "",
-          fmt::format("'capacity' is {}, 1 to {} allowed", effect.capacity, kMaxCapacity));
-    checkRange(effect.tickRate, 1, 1e5, "", "'tickRate'");
-    for (std::size_t i = 0; i < effect.emitters.size(); ++i)
-        checkEmitter(effect.emitters[i], fmt::format("emitter {}", i));
-    checkCurve(effect.radius, "radius over life");
-    checkCurve(effect.density, "density over life");
-    checkCurve(effect.tint, "tint over life");
+    p.triangleCount = static_cast<std::uint32_t>(all.size()) - p.firstTriangle;
+    if (p.triangleCount == 0)
+        throw inputError("setting up an effect", "",
+                         "the mesh of an emitter has no area, triangles with area allowed");
 }
 
 shader::EmitterParameters emitterParameters(const scene::Emitter& emitter, double tickRate) {
-    const dvec3 axis = glm::normalize(emitter.direction);
-    // Any orthonormal frame; the axis' smallest component gives the safest cross product.
-    const dvec3 a = glm::abs(axis);
-    const dvec3 helper = a.x <= a.y && a.x <= a.z ? dvec3(1, 0, 0)
-                         : a.y <= a.z             ? dvec3(0, 1, 0)
-                                                  : dvec3(0, 0, 1);
-    const dvec3 tangent = glm::normalize(glm::cross(helper, axis));
     const double halfSpread = std::sin(0.5 * std::min(emitter.spread, kPi));
-
     shader::EmitterParameters p{};
+    makeFrames(emitter, p);
     p.position = vec3(emitter.position);
     p.shape = static_cast<std::uint32_t>(emitter.shape);
     p.size = vec3(emitter.size);
     p.radius = static_cast<float>(emitter.radius);
-    p.axis = vec3(axis);
+    p.height = static_cast<float>(emitter.height);
+    if (emitter.radius > 0)
+        p.innerRadius2 = static_cast<float>(std::pow(emitter.innerRadius / emitter.radius, 2));
+    p.isSurface = emitter.fromSurface;
+    p.velocityMode = static_cast<std::uint32_t>(emitter.velocity);
     p.coneHeight = static_cast<float>(2 * halfSpread * halfSpread);  // 1 - cos(spread)
-    p.tangent = vec3(tangent);
-    p.bitangent = vec3(glm::cross(axis, tangent));
     p.speedLow = static_cast<float>(emitter.speed.x);
     p.speedRange = static_cast<float>(emitter.speed.y - emitter.speed.x);
     p.lifetimeLowTicks = static_cast<float>(emitter.lifetime.x * tickRate);
     p.lifetimeRangeTicks = static_cast<float>((emitter.lifetime.y - emitter.lifetime.x) * tickRate);
+    p.inheritPerTick = static_cast<float>(emitter.inherit * tickRate);
+    p.inheritSpeed = static_cast<float>(emitter.inherit);
+    const dvec3 s = emitter.size;
+    const dvec3 faces(s.y * s.z, s.z * s.x, s.x * s.y);
+    const double area = faces.x + faces.y + faces.z;
+    p.faceX = area > 0 ? static_cast<float>(faces.x / area) : 1.0f / 3;
+    p.faceXY = area > 0 ? static_cast<float>((faces.x + faces.y) / area) : 2.0f / 3;
     return p;
 }
 
@@ -120,61 +109,11 @@ shader::StepParameters stepParameters(const ModuleSums& sums, double tickRate) {
     step.loss = static_cast<float>(loss);
     step.velocityGain = static_cast<float>(h * phi1);
     step.positionGain = static_cast<float>(h * h * phi2);
+    // A particle at rest on a surface gains at most |a| h per tick.
+    step.restSpeed = static_cast<float>(2 * glm::length(sums.acceleration) * h);
+    step.ticksPerSecond = static_cast<float>(tickRate);
     step.dragHalvings = y > 1 ? static_cast<std::uint32_t>(std::ceil(std::log2(y) + 1e-6)) : 0;
     return step;
-}
-
-template <typename T>
-T curveAt(const scene::Curve<T>& curve, double age) {
-    const auto& keys = curve.keys;
-    if (age <= keys.front().first) return keys.front().second;
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-        if (age > keys[i].first) continue;
-        const double part = (age - keys[i - 1].first) / (keys[i].first - keys[i - 1].first);
-        return keys[i - 1].second + (keys[i].second - keys[i - 1].second) * part;
-    }
-    return keys.back().second;
-}
-
-/// Keys at the same age are a jump; it becomes a very steep segment.
-template <typename T>
-scene::Curve<T> withoutJumps(scene::Curve<T> curve) {
-    constexpr double kJump = 1e-5;
-    for (std::size_t i = 1; i < curve.keys.size(); ++i)
-        curve.keys[i].first = std::max(curve.keys[i].first, curve.keys[i - 1].first + kJump);
-    return curve;
-}
-
-/// One list of segments between the ages at which any of the three curves has a key.
-shader::AppearanceParameters appearanceParameters(const scene::Effect& effect) {
-    const auto radius = withoutJumps(effect.radius);
-    const auto density = withoutJumps(effect.density);
-    const auto tint = withoutJumps(effect.tint);
-    std::set<double> ages;
-    for (const auto& key : radius.keys) ages.insert(key.first);
-    for (const auto& key : density.keys) ages.insert(key.first);
-    for (const auto& key : tint.keys) ages.insert(key.first);
-    check(ages.size() <= shader::kMaxAppearanceKeys, "over life",
-          fmt::format("the curves have keys at {} different ages, {} allowed", ages.size(),
-                      shader::kMaxAppearanceKeys));
-
-    shader::AppearanceParameters p{};
-    p.radius = static_cast<float>(curveAt(radius, 0));
-    p.density = static_cast<float>(curveAt(density, 0));
-    p.tint = vec3(curveAt(tint, 0));
-    for (auto next = std::next(ages.begin()); next != ages.end(); ++next) {
-        const double a = *std::prev(next);
-        const double b = *next;
-        shader::AppearanceSegment& segment = p.segments[p.segmentCount++];
-        segment.start = static_cast<float>(a);
-        segment.width = static_cast<float>(b - a);
-        segment.radiusSlope =
-            static_cast<float>((curveAt(radius, b) - curveAt(radius, a)) / (b - a));
-        segment.densitySlope =
-            static_cast<float>((curveAt(density, b) - curveAt(density, a)) / (b - a));
-        segment.tintSlope = vec3((curveAt(tint, b) - curveAt(tint, a)) / (b - a));
-    }
-    return p;
 }
 
 double longestLifetime(const scene::Effect& effect) {
@@ -184,30 +123,115 @@ double longestLifetime(const scene::Effect& effect) {
     return longest;
 }
 
-}  // namespace
+shader::SubEmitter subEmitterParameters(const scene::SubEmitter& sub, std::uint32_t index,
+                                        double tickRate) {
+    shader::SubEmitter p{};
+    p.trigger = static_cast<std::uint32_t>(sub.trigger);
+    p.index = index;
+    p.countLow = static_cast<float>(sub.count.x);
+    p.countRange = static_cast<float>(sub.count.y - sub.count.x);
+    if (sub.trigger == scene::SubEmitterTrigger::Way) {
+        p.ratePerTick = static_cast<float>(sub.rate / tickRate);
+        p.ticksPerBirth = static_cast<float>(tickRate / sub.rate);
+    }
+    return p;
+}
 
-CompiledEffect compileEffect(const scene::Effect& effect, std::uint64_t seed,
-                             std::uint32_t instance) {
-    checkEffect(effect);
+CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
+    checkEffect(effect, isChild);
     CompiledEffect compiled{
         .capacity = effect.capacity,
         .tickRate = effect.tickRate,
         .profile = effect.smoothProfile ? scene::Profile::Smooth : scene::Profile::Constant,
-        .parameters = {},
-        .emitters = {},
         .schedule = SpawnSchedule(effect),
         .aliveBound = AliveBound(effect.capacity, longestLifetime(effect) * effect.tickRate)};
-    compiled.parameters.random = {static_cast<std::uint32_t>(seed),
-                                  static_cast<std::uint32_t>(seed >> 32u), instance};
+    shader::EffectParameters& p = compiled.parameters;
     ModuleSums sums;
-    sums.seed = seed;
-    sums.parameters = &compiled.parameters;
+    sums.parameters = &p;
     addModules(effect.modules, sums);
-    compiled.parameters.step = stepParameters(sums, effect.tickRate);
-    compiled.parameters.appearance = appearanceParameters(effect);
-    for (const scene::Emitter& emitter : effect.emitters)
+    p.step = stepParameters(sums, effect.tickRate);
+    p.appearance = appearanceParameters(effect);
+    for (std::size_t i = 0; i < sums.noiseDrifts.size(); ++i)
+        compiled.noiseDrifts.push_back({-sums.noiseDrifts[i] * double{p.curlNoise[i].frequency}});
+    for (const scene::Emitter& emitter : effect.emitters) {
         compiled.emitters.push_back(emitterParameters(emitter, effect.tickRate));
+        if (emitter.shape == scene::EmitterShape::Mesh)
+            addTriangles(emitter, compiled.triangles, compiled.emitters.back());
+    }
+    for (const scene::SubEmitter& sub : effect.subEmitters) {
+        p.subEmitters[compiled.subEmitterCount] =
+            subEmitterParameters(sub, compiled.subEmitterCount, effect.tickRate);
+        ++compiled.subEmitterCount;
+    }
     return compiled;
+}
+
+void addPopulations(const scene::Effect& effect, std::uint32_t parent, std::uint32_t sub,
+                    std::vector<CompiledEffect>& all) {
+    if (all.size() == kMaxPopulations)
+        throw inputError("setting up an effect", "",
+                         fmt::format("the effect has more than {} effects below each other, {} "
+                                     "allowed",
+                                     kMaxPopulations, kMaxPopulations));
+    const auto index = static_cast<std::uint32_t>(all.size());
+    all.push_back(compileOne(effect, parent != CompiledEffect::kNone));
+    all[index].parent = parent;
+    all[index].subEmitter = sub;
+    for (std::uint32_t i = 0; i < effect.subEmitters.size(); ++i) {
+        all[index].children.push_back(static_cast<std::uint32_t>(all.size()));
+        addPopulations(*effect.subEmitters[i].effect, index, i, all);
+    }
+}
+
+void listPopulations(const scene::Effect& effect, std::vector<const scene::Effect*>& all) {
+    all.push_back(&effect);
+    for (const scene::SubEmitter& sub : effect.subEmitters) listPopulations(*sub.effect, all);
+}
+
+}  // namespace
+
+std::vector<CompiledEffect> compileEffect(const scene::Effect& effect) {
+    std::vector<CompiledEffect> all;
+    addPopulations(effect, CompiledEffect::kNone, 0, all);
+    return all;
+}
+
+std::vector<const scene::Effect*> listPopulations(const scene::Effect& effect) {
+    std::vector<const scene::Effect*> all;
+    listPopulations(effect, all);
+    return all;
+}
+
+shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t instance,
+                                              std::uint32_t population) {
+    shader::InstanceParameters p{};
+    p.random = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32u),
+                instance};
+    if (population > 0) {
+        // A key of its own for each population, out of reach of the counters of births.
+        const shader::uvec4 words =
+            shader::philox4x32(shader::uvec4(population, 0, 0, 1),
+                               shader::uvec2(p.random.seedLow, p.random.seedHigh));
+        p.random.seedLow = words.x;
+        p.random.seedHigh = words.y;
+    }
+    p.noiseSeed = shader::pcg3d(shader::uvec3(p.random.seedLow, p.random.seedHigh, 0)).x;
+    return p;
+}
+
+shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick) {
+    shader::TickFields fields{};
+    const double seconds = (static_cast<double>(tick) + 0.5) / effect.tickRate;
+    for (std::size_t i = 0; i < effect.noiseDrifts.size(); ++i) {
+        const dvec3 way = effect.noiseDrifts[i].cellsPerSecond * seconds;
+        const dvec3 cells = glm::floor(way + (way.x + way.y + way.z) / 3);
+        const dvec3 rest = way - (cells - (cells.x + cells.y + cells.z) / 6);
+        for (int axis = 0; axis < 3; ++axis)
+            fields.curlNoise[i].cells[axis] =
+                static_cast<std::uint32_t>(static_cast<std::int64_t>(cells[axis]));
+        fields.curlNoise[i].rest = vec3(rest);
+    }
+    return fields;
 }
 
 std::uint64_t ticksAt(double seconds, double tickRate) {
@@ -215,9 +239,16 @@ std::uint64_t ticksAt(double seconds, double tickRate) {
     return seconds > 0 ? static_cast<std::uint64_t>(std::floor(seconds * tickRate + 1e-6)) : 0;
 }
 
-std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t tick) {
+double tickFractionAt(double seconds, double tickRate) {
+    const double fraction =
+        seconds * tickRate - static_cast<double>(ticksAt(seconds, tickRate));
+    return fraction > 2e-6 ? std::min(fraction, 1 - 1e-6) : 0;
+}
+
+std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t tick,
+                            std::uint64_t previous) {
     // FNV-1a over 32-bit words (Fowler, Noll, Vo).
-    std::uint64_t hash = 0xcbf29ce484222325u;
+    std::uint64_t hash = previous;
     const auto add = [&](std::uint32_t word) { hash = (hash ^ word) * 0x100000001b3u; };
     add(static_cast<std::uint32_t>(tick));
     add(static_cast<std::uint32_t>(tick >> 32u));
@@ -238,18 +269,23 @@ double lengthScale(const dmat4& transform) {
 
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
-                                             std::uint64_t ticks, const dmat4& worldFromEffect,
-                                             std::uint32_t medium, std::uint32_t firstId) {
+                                             std::uint64_t ticks, double sinceTick,
+                                             const dmat4& worldFromEffect, std::uint32_t medium,
+                                             std::uint32_t firstId) {
     std::vector<scene::MediumSphere> spheres;
     spheres.reserve(particles.size());
     const auto scale = static_cast<float>(lengthScale(worldFromEffect));
     const auto lastTick = static_cast<std::uint32_t>(ticks - 1);
     for (const Particle& particle : particles) {
-        if (particle.life.lifetimeTicks < 0) continue;
+        const auto since = static_cast<float>(sinceTick);
+        if (!shader::isShownAt(particle.life, lastTick, since)) continue;
         const shader::Appearance look = shader::evaluateAppearance(
-            effect.parameters, shader::normalisedAge(particle.life, lastTick));
+            effect.parameters, shader::normalisedAge(particle.life, lastTick, since),
+            glm::length(particle.velocity));
         if (!(look.radius > 0 && look.density > 0)) continue;
-        spheres.push_back({.center = transformPoint(worldFromEffect, dvec3(particle.position)),
+        const dvec3 place =
+            dvec3(particle.position) + dvec3(particle.velocity) * (sinceTick / effect.tickRate);
+        spheres.push_back({.center = transformPoint(worldFromEffect, place),
                            .radius = look.radius * scale,
                            .density = look.density,
                            .tint = look.tint,

@@ -17,34 +17,66 @@ namespace brume::particles {
 using shader::Particle;
 using Counters = shader::ParticleCounters;
 
+/// What the parameters of an effect need and cannot do in a shader.
+struct NoiseDrift {
+    dvec3 cellsPerSecond{0};  ///< of the first octave, in units of the kernel
+};
+
+/// The particles of one effect: of the effect itself, or of one of its sub-emitters.
 struct CompiledEffect {
     std::uint32_t capacity = 0;
     double tickRate = 0;  ///< 1/s
     scene::Profile profile = scene::Profile::Constant;
     shader::EffectParameters parameters{};
     std::vector<shader::EmitterParameters> emitters;
-    SpawnSchedule schedule;  ///< at tick 0
-    AliveBound aliveBound;   ///< at tick 0
+    std::vector<shader::EmitterTriangle> triangles;
+    std::vector<NoiseDrift> noiseDrifts;
+    SpawnSchedule schedule;
+    AliveBound aliveBound;  ///< at tick 0
+
+    std::uint32_t parent = kNone;      ///< population whose particles these come from
+    std::uint32_t subEmitter = 0;      ///< which one of the parent's
+    std::uint32_t subEmitterCount = 0;
+    std::vector<std::uint32_t> children;  ///< populations, by sub-emitter
+
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    bool isChild() const { return parent != kNone; }
 };
 
-/// Equal arguments give equal particles; another seed or instance gives independent ones. Throws an
-/// input Error for modules and values that cannot be simulated.
-CompiledEffect compileEffect(const scene::Effect& effect, std::uint64_t seed,
-                             std::uint32_t instance);
+/// The populations of an effect: itself, then those of its sub-emitters, each before its own.
+/// Throws an input Error for modules and values that cannot be simulated.
+std::vector<CompiledEffect> compileEffect(const scene::Effect& effect);
+
+/// The effects in the order of compileEffect().
+std::vector<const scene::Effect*> listPopulations(const scene::Effect& effect);
+
+/// Equal arguments give equal particles; another seed, instance or population gives independent
+/// ones.
+shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t instance,
+                                              std::uint32_t population);
+
+/// What the modules know about a tick, the same for all instances.
+shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick);
 
 /// Ticks that are over at `seconds` (>= 0).
 std::uint64_t ticksAt(double seconds, double tickRate);
 
-/// A hash over all bits of the particles in their order, and of the tick.
-std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t tick);
+/// How much of the next tick has passed at `seconds`, [0, 1); 0 within rounding of its start.
+double tickFractionAt(double seconds, double tickRate);
 
-/// The particles as spheres for rendering, after `ticks` ticks. Sphere i has id firstId + birth
-/// index; radii scale with the cube root of the transform's determinant. Those without a radius or
-/// density are left out.
+/// A hash over all bits of the particles in their order, and of the tick. `previous`: hash of the
+/// populations before.
+std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t tick,
+                            std::uint64_t previous = 0xcbf29ce484222325u);
+
+/// The particles as spheres for rendering, `sinceTick` ticks after `ticks` ticks: places and ages
+/// move on by that. Sphere i has id firstId + birth index; radii scale with the cube root of the
+/// transform's determinant. Those without a radius or density are left out.
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
-                                             std::uint64_t ticks, const dmat4& worldFromEffect,
-                                             std::uint32_t medium, std::uint32_t firstId);
+                                             std::uint64_t ticks, double sinceTick,
+                                             const dmat4& worldFromEffect, std::uint32_t medium,
+                                             std::uint32_t firstId);
 
 /// Scale of lengths under a transform: the cube root of |det|.
 double lengthScale(const dmat4& transform);

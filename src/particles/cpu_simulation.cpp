@@ -1,71 +1,155 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <shaders/particles/spawn.h>
-#include <shaders/particles/step.h>
+#include <shaders/particles/children.h>
+#include <core/assert.hpp>
 #include <particles/cpu_simulation.hpp>
+
+#include <algorithm>
+#include <utility>
 
 namespace brume::particles {
 
 CpuSimulation::CpuSimulation(const scene::Effect& effect, std::uint64_t seed,
-                             std::uint32_t instance)
-    : mEffect(compileEffect(effect, seed, instance)), mSchedule(mEffect.schedule) {}
+                             std::uint32_t instance) {
+    for (CompiledEffect& compiled : compileEffect(effect)) {
+        Population& population = mPopulations.emplace_back(Population{.effect = compiled});
+        population.instance = instanceParameters(
+            seed, instance, static_cast<std::uint32_t>(mPopulations.size() - 1));
+    }
+}
 
 void CpuSimulation::step(std::uint64_t ticks) {
     for (; ticks > 0; --ticks) {
-        const auto tick = static_cast<std::uint32_t>(mSchedule.tick());
-        const TickBirths births = mSchedule.next();
-        stepSurvivors(tick);
-        appendBirths(births, tick);
-        mCounters.alive = static_cast<std::uint32_t>(mParticles.size());
+        // Parents come before their children, which are born in the same tick.
+        for (Population& population : mPopulations) stepPopulation(population);
+        ++mTick;
+    }
+    mSinceTick = 0;
+}
+
+void CpuSimulation::stepPopulation(Population& population) {
+    const shader::TickFields fields = tickFields(population.effect, mTick);
+    const TickBirths births = population.effect.isChild()
+                                  ? std::exchange(population.asked, {})
+                                  : population.effect.schedule.at(mTick);
+    stepSurvivors(population, fields);
+    appendBirths(population, fields, births);
+    population.counters.alive = static_cast<std::uint32_t>(population.particles.size());
+}
+
+void CpuSimulation::follow(Population& population, const shader::TickFields& fields, bool isBirth,
+                           bool survives, Particle& particle) {
+    const CompiledEffect& effect = population.effect;
+    const shader::ParticleTick event = shader::followTick(
+        effect.parameters, effect.parameters.step, fields, population.instance.noiseSeed,
+        static_cast<std::uint32_t>(mTick), isBirth, survives, particle);
+    for (std::uint32_t k = 0; k < effect.subEmitterCount; ++k) {
+        shader::BirthBatch batch = shader::childrenOf(effect.parameters.subEmitters[k],
+                                                      population.instance.random, event);
+        if (batch.count == 0) continue;
+        Population& child = mPopulations[effect.children[k]];
+        const std::uint32_t asked = child.asked.count + child.asked.overflow;
+        batch.first = asked;
+        batch.firstBirthIndex = child.counters.born + child.counters.rejected + asked;
+        const std::uint32_t kept =
+            std::min(batch.count, child.effect.capacity - child.asked.count);
+        child.asked.count += kept;
+        child.asked.overflow += batch.count - kept;
+        batch.count = kept;
+        child.asked.batches.push_back(batch);
     }
 }
 
-void CpuSimulation::stepSurvivors(std::uint32_t tick) {
+void CpuSimulation::stepSurvivors(Population& population, const shader::TickFields& fields) {
+    const auto tick = static_cast<std::uint32_t>(mTick);
+    std::vector<Particle>& particles = population.particles;
     std::size_t kept = 0;
-    for (const Particle& old : mParticles) {
-        if (!shader::isAlive(old.life, tick)) continue;
+    for (const Particle& old : particles) {
+        const bool survives = shader::isAlive(old.life, tick);
+        if (!survives && population.effect.subEmitterCount == 0) continue;
         Particle particle = old;
-        shader::stepParticle(mEffect.parameters, mEffect.parameters.step, particle);
-        mParticles[kept++] = particle;
+        follow(population, fields, false, survives, particle);
+        if (!survives) continue;
+        population.counters.killed += particle.life.lifetimeTicks == shader::kNotFinite;
+        particles[kept++] = particle;
     }
-    mCounters.died += static_cast<std::uint32_t>(mParticles.size() - kept);
-    mParticles.resize(kept);
+    population.counters.died += static_cast<std::uint32_t>(particles.size() - kept);
+    particles.resize(kept);
 }
 
-void CpuSimulation::appendBirths(const TickBirths& births, std::uint32_t tick) {
-    mCounters.born += births.count;
-    mCounters.rejected += births.overflow;
-    for (const shader::BirthBatch& batch : births.batches) {
-        const shader::EmitterParameters& emitter = mEffect.emitters[batch.emitter];
+void CpuSimulation::appendBirths(Population& population, const shader::TickFields& fields,
+                                 const TickBirths& births) {
+    const auto tick = static_cast<std::uint32_t>(mTick);
+    const CompiledEffect& effect = population.effect;
+    Counters& counters = population.counters;
+    counters.born += births.count;
+    counters.rejected += births.overflow;
+    for (const shader::BirthBatch& batch : births.batches)
         for (std::uint32_t i = 0; i < batch.count; ++i) {
             Particle particle =
-                shader::spawnParticle(mEffect.parameters.random, emitter, batch, i, tick);
-            if (!shader::isAlive(particle.life, tick)) {
-                ++mCounters.died;
-            } else if (mParticles.size() == mEffect.capacity) {
-                --mCounters.born;
-                ++mCounters.rejected;
+                shader::spawnFromBatch(effect.triangles.data(), population.instance.random,
+                                       effect.emitters[batch.emitter], batch, i, tick);
+            const bool survives = shader::isAlive(particle.life, tick);
+            const bool isFull = population.particles.size() == effect.capacity;
+            if (!isFull && (survives || effect.subEmitterCount > 0))
+                follow(population, fields, true, survives, particle);
+            if (!survives) {
+                ++counters.died;
+            } else if (isFull) {
+                --counters.born;
+                ++counters.rejected;
             } else {
-                shader::stepNewParticle(mEffect.parameters, mEffect.parameters.step, particle);
-                mParticles.push_back(particle);
+                counters.killed += particle.life.lifetimeTicks == shader::kNotFinite;
+                population.particles.push_back(particle);
             }
         }
+}
+
+void CpuSimulation::restart() {
+    mTick = 0;
+    for (Population& population : mPopulations) {
+        population.particles.clear();
+        population.counters = {};
+        population.asked = {};
     }
 }
 
 void CpuSimulation::advanceTo(double seconds) {
-    const std::uint64_t target = ticksAt(seconds, mEffect.tickRate);
-    if (target < tick()) {
-        mSchedule = mEffect.schedule;
-        mParticles.clear();
-        mCounters = {};
+    const double tickRate = effect().tickRate;
+    const std::uint64_t target = ticksAt(seconds, tickRate);
+    if (target < mTick) restart();
+    step(target - mTick);
+    mSinceTick = tickFractionAt(seconds, tickRate);
+}
+
+std::uint64_t CpuSimulation::hash() const { return state().hash(); }
+
+SimulationState CpuSimulation::state() const {
+    SimulationState state;
+    state.tick = mTick;
+    for (const Population& population : mPopulations) {
+        state.populations.push_back(population.particles);
+        state.counters.push_back(population.counters);
     }
-    step(target - tick());
+    return state;
+}
+
+void CpuSimulation::restore(const SimulationState& state) {
+    BRUME_ASSERT_EQ(state.populations.size(), mPopulations.size());
+    mTick = state.tick;
+    mSinceTick = 0;
+    for (std::size_t i = 0; i < mPopulations.size(); ++i) {
+        mPopulations[i].particles = state.populations[i];
+        mPopulations[i].counters = state.counters[i];
+        mPopulations[i].asked = {};
+    }
 }
 
 std::vector<scene::MediumSphere> CpuSimulation::spheres(const dmat4& worldFromEffect,
                                                         std::uint32_t medium,
-                                                        std::uint32_t firstId) const {
-    return makeSpheres(mEffect, mParticles, tick(), worldFromEffect, medium, firstId);
+                                                        std::uint32_t firstId,
+                                                        std::uint32_t population) const {
+    return makeSpheres(effect(population), particles(population), mTick, mSinceTick,
+                       worldFromEffect, medium, firstId);
 }
 
 }  // namespace brume::particles

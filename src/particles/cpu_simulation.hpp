@@ -2,11 +2,13 @@
 // The simulator on the CPU: the twin that says what the GPU must give, bit by bit.
 #pragma once
 
-#include <particles/compiled_effect.hpp>
+#include <particles/simulation_state.hpp>
 
 namespace brume::particles {
 
-/// One instance of an effect. Its state depends on the effect, seed, instance and tick alone.
+/// One instance of an effect with its populations: number 0 is the effect itself, the others are
+/// those of its sub-emitters, in the order of compileEffect(). Its state depends on the effect,
+/// seed, instance and tick alone.
 class CpuSimulation {
   public:
     /// Throws an input Error as compileEffect().
@@ -17,24 +19,50 @@ class CpuSimulation {
     /// To the last tick that is over at `seconds`; starts anew if that lies in the past.
     void advanceTo(double seconds);
 
-    std::uint64_t tick() const { return mSchedule.tick(); }                ///< ticks done
-    const std::vector<Particle>& particles() const { return mParticles; }  ///< in order of birth
-    const Counters& counters() const { return mCounters; }
-    const CompiledEffect& effect() const { return mEffect; }
-    std::uint64_t hash() const { return hashParticles(mParticles, tick()); }
+    std::uint64_t tick() const { return mTick; }  ///< ticks done
+    std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
+    /// In order of birth.
+    const std::vector<Particle>& particles(std::uint32_t population = 0) const {
+        return mPopulations[population].particles;
+    }
+    const Counters& counters(std::uint32_t population = 0) const {
+        return mPopulations[population].counters;
+    }
+    const CompiledEffect& effect(std::uint32_t population = 0) const {
+        return mPopulations[population].effect;
+    }
+    std::uint64_t hash() const;  ///< of all populations
 
-    /// As makeSpheres().
+    SimulationState state() const;
+    /// Goes on from a state of the same effect.
+    void restore(const SimulationState& state);
+
+    /// As makeSpheres(), of one population, at the time of the last advanceTo().
     std::vector<scene::MediumSphere> spheres(const dmat4& worldFromEffect, std::uint32_t medium,
-                                             std::uint32_t firstId) const;
+                                             std::uint32_t firstId,
+                                             std::uint32_t population = 0) const;
 
   private:
-    void stepSurvivors(std::uint32_t tick);
-    void appendBirths(const TickBirths& births, std::uint32_t tick);
+    struct Population {
+        CompiledEffect effect;
+        shader::InstanceParameters instance{};
+        std::vector<Particle> particles;
+        Counters counters{};
+        TickBirths asked{};  // of a child, by its parent in the current tick
+    };
 
-    CompiledEffect mEffect;
-    SpawnSchedule mSchedule;
-    std::vector<Particle> mParticles;
-    Counters mCounters{};
+    void stepPopulation(Population& population);
+    void stepSurvivors(Population& population, const shader::TickFields& fields);
+    void appendBirths(Population& population, const shader::TickFields& fields,
+                      const TickBirths& births);
+    /// Moves a particle through the tick and lists its children.
+    void follow(Population& population, const shader::TickFields& fields, bool isBirth,
+                bool survives, Particle& particle);
+    void restart();
+
+    std::vector<Population> mPopulations;
+    std::uint64_t mTick = 0;
+    double mSinceTick = 0;
 };
 
 }  // namespace brume::particles

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brume::particles {
 namespace {
 
 constexpr double kMillion = 1e6;
+constexpr std::int64_t kMillionSquared = 1'000'000'000'000;
+constexpr double kTickSlack = 1e-9;  // times in files are not exact in binary
 
 std::uint64_t toMillionths(double x) {
     return static_cast<std::uint64_t>(std::llround(x * kMillion));
@@ -25,71 +28,164 @@ std::uint64_t birthLimit(std::uint64_t rateMicro, double duration) {
 
 }  // namespace
 
+std::uint64_t SpawnSchedule::Series::tickOf(std::uint64_t j) const {
+    return static_cast<std::uint64_t>(
+        std::floor(ticks + static_cast<double>(j) * intervalTicks + kTickSlack));
+}
+
+std::uint64_t SpawnSchedule::Series::occurrencesBefore(std::uint64_t tick) const {
+    const double guess = (static_cast<double>(tick) - ticks) / intervalTicks;
+    std::uint64_t j = guess > 2 ? static_cast<std::uint64_t>(guess) - 2 : 0;
+    j = std::min(j, repeat);
+    while (j < repeat && tickOf(j) < tick) ++j;
+    return j;
+}
+
 SpawnSchedule::SpawnSchedule(const scene::Effect& effect)
-    : mTickRateMicro(toMillionths(effect.tickRate)), mCapacity(effect.capacity) {
+    : mTickRateMicro(toMillionths(effect.tickRate)),
+      mTickRate(effect.tickRate),
+      mCapacity(effect.capacity) {
     for (const scene::Emitter& source : effect.emitters) {
         Emitter emitter;
         emitter.rateMicro = toMillionths(source.rate);
-        emitter.left = birthLimit(emitter.rateMicro, source.duration);
+        emitter.delayMicro = toMillionths(source.delay);
+        emitter.limit = birthLimit(emitter.rateMicro, source.duration);
+        emitter.path = source.path;
+        mMaxBatches += 1;
         for (const scene::Burst& burst : source.bursts) {
             if (burst.time > source.duration || burst.count == 0) continue;
-            const double ticks = burst.time * effect.tickRate;
-            const double tick = std::floor(ticks + 1e-9);
+            const double ticks = (source.delay + burst.time) * effect.tickRate;
+            if (burst.repeat > 1 && burst.interval > 0) {
+                const double last = std::floor((source.duration - burst.time) / burst.interval);
+                const auto repeat = static_cast<std::uint64_t>(
+                    std::min<double>(burst.repeat, last + 1));
+                const double interval = burst.interval * effect.tickRate;
+                emitter.series.push_back({ticks, interval, repeat, burst.count});
+                mMaxBatches += static_cast<std::uint32_t>(
+                    std::min<double>(static_cast<double>(repeat), std::ceil(1 / interval) + 1));
+                continue;
+            }
+            const double tick = std::floor(ticks + kTickSlack);
             const double remaining = std::clamp(1 - (ticks - tick), 0.0, 1.0);
             emitter.bursts.push_back(
                 {static_cast<std::uint64_t>(tick), static_cast<float>(remaining), burst.count});
+            mMaxBatches += 1;
         }
         std::stable_sort(emitter.bursts.begin(), emitter.bursts.end(),
                          [](const Burst& a, const Burst& b) { return a.tick < b.tick; });
-        mMaxBatches += 1 + static_cast<std::uint32_t>(emitter.bursts.size());
+        emitter.burstSums = {0};
+        for (const Burst& burst : emitter.bursts)
+            emitter.burstSums.push_back(emitter.burstSums.back() + burst.count);
         mEmitters.push_back(std::move(emitter));
     }
 }
 
-TickBirths SpawnSchedule::next() {
-    TickBirths births;
-    for (std::uint32_t i = 0; i < mEmitters.size(); ++i) {
-        addBursts(i, births);
-        addRate(i, births);
+std::uint64_t SpawnSchedule::rateBirthsBefore(const Emitter& emitter, std::uint64_t tick) const {
+    // floor(rate (tick / tickRate - delay)), everything in millionths.
+    using Wide = __int128;
+    const Wide amount = Wide(emitter.rateMicro) * tick * kMillionSquared -
+                        Wide(emitter.rateMicro) * emitter.delayMicro * mTickRateMicro;
+    if (amount <= 0) return 0;
+    const Wide births = amount / (Wide(mTickRateMicro) * kMillionSquared);
+    return births < Wide(emitter.limit) ? static_cast<std::uint64_t>(births) : emitter.limit;
+}
+
+std::uint64_t SpawnSchedule::birthsBefore(std::uint64_t tick) const {
+    std::uint64_t sum = 0;
+    for (const Emitter& emitter : mEmitters) {
+        const auto burst = std::lower_bound(
+            emitter.bursts.begin(), emitter.bursts.end(), tick,
+            [](const Burst& a, std::uint64_t value) { return a.tick < value; });
+        sum += emitter.burstSums[static_cast<std::size_t>(burst - emitter.bursts.begin())];
+        for (const Series& series : emitter.series)
+            sum += series.occurrencesBefore(tick) * series.count;
+        sum += rateBirthsBefore(emitter, tick);
     }
-    ++mTick;
+    return sum;
+}
+
+TickBirths SpawnSchedule::at(std::uint64_t tick) const {
+    TickBirths births;
+    std::uint64_t index = birthsBefore(tick);
+    for (std::uint32_t i = 0; i < mEmitters.size(); ++i) {
+        const Emitter& emitter = mEmitters[i];
+        std::vector<shader::BirthBatch> batches;
+        addBursts(emitter, tick, batches);
+        addRate(emitter, tick, batches);
+        if (batches.empty()) continue;
+        const dvec3 end = pathAt(emitter, tick + 1);
+        const dvec3 motion = end - pathAt(emitter, tick);
+        for (shader::BirthBatch& batch : batches) {
+            batch.emitter = i;
+            batch.firstBirthIndex = static_cast<std::uint32_t>(index);
+            index += batch.count;
+            const std::uint32_t kept = std::min(batch.count, mCapacity - births.count);
+            births.overflow += batch.count - kept;
+            batch.count = kept;
+            batch.first = births.count;
+            batch.offset = vec3(end);
+            batch.motion = vec3(motion);
+            births.count += kept;
+            if (kept > 0) births.batches.push_back(batch);
+        }
+    }
     return births;
 }
 
-void SpawnSchedule::addBursts(std::uint32_t emitterIndex, TickBirths& births) {
-    Emitter& emitter = mEmitters[emitterIndex];
-    for (; emitter.nextBurst < emitter.bursts.size(); ++emitter.nextBurst) {
-        const Burst& burst = emitter.bursts[emitter.nextBurst];
-        if (burst.tick != mTick) break;
-        addBatch(emitterIndex, burst.count, burst.remaining, 0, births);
+void SpawnSchedule::addBursts(const Emitter& emitter, std::uint64_t tick,
+                              std::vector<shader::BirthBatch>& batches) const {
+    auto burst =
+        std::lower_bound(emitter.bursts.begin(), emitter.bursts.end(), tick,
+                         [](const Burst& a, std::uint64_t value) { return a.tick < value; });
+    for (; burst != emitter.bursts.end() && burst->tick == tick; ++burst) {
+        shader::BirthBatch batch{};
+        batch.count = burst->count;
+        batch.remaining = burst->remaining;
+        batches.push_back(batch);
     }
+    for (const Series& series : emitter.series)
+        for (std::uint64_t j = series.occurrencesBefore(tick);
+             j < series.repeat && series.tickOf(j) == tick; ++j) {
+            const double time = series.ticks + static_cast<double>(j) * series.intervalTicks;
+            shader::BirthBatch batch{};
+            batch.count = series.count;
+            batch.remaining = static_cast<float>(
+                std::clamp(1 - (time - static_cast<double>(tick)), 0.0, 1.0));
+            batches.push_back(batch);
+        }
 }
 
-void SpawnSchedule::addRate(std::uint32_t emitterIndex, TickBirths& births) {
-    Emitter& emitter = mEmitters[emitterIndex];
-    if (emitter.left == 0 || emitter.rateMicro == 0) return;
-    const std::uint64_t total = emitter.phase + emitter.rateMicro;
-    const std::uint64_t count = std::min(total / mTickRateMicro, emitter.left);
-    // Birth j of this tick (from 0) happens when phase + rate * time reaches j + 1.
-    const double step =
-        static_cast<double>(mTickRateMicro) / static_cast<double>(emitter.rateMicro);
-    const double first = static_cast<double>(total) / static_cast<double>(emitter.rateMicro) - step;
-    emitter.phase = total % mTickRateMicro;
-    emitter.left -= count;
-    if (count > 0)
-        addBatch(emitterIndex, count, static_cast<float>(std::clamp(first, 0.0, 1.0)),
-                 static_cast<float>(step), births);
+void SpawnSchedule::addRate(const Emitter& emitter, std::uint64_t tick,
+                            std::vector<shader::BirthBatch>& batches) const {
+    const std::uint64_t before = rateBirthsBefore(emitter, tick);
+    const std::uint64_t after = rateBirthsBefore(emitter, tick + 1);
+    if (after == before) return;
+    // Birth j (from 0) happens at delay + (j + 1) / rate; what is left of the tick then, exactly.
+    using Wide = __int128;
+    const Wide left = Wide(emitter.rateMicro) * (tick + 1) * kMillionSquared -
+                      Wide(emitter.rateMicro) * emitter.delayMicro * mTickRateMicro -
+                      Wide(before + 1) * mTickRateMicro * kMillionSquared;
+    const double rate = static_cast<double>(emitter.rateMicro);
+    const double first = static_cast<double>(left) / (rate * static_cast<double>(kMillionSquared));
+    shader::BirthBatch batch{};
+    batch.count = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(after - before, std::numeric_limits<std::uint32_t>::max()));
+    batch.remaining = static_cast<float>(std::clamp(first, 0.0, 1.0));
+    batch.remainingStep = static_cast<float>(static_cast<double>(mTickRateMicro) / rate);
+    batches.push_back(batch);
 }
 
-void SpawnSchedule::addBatch(std::uint32_t emitterIndex, std::uint64_t count, float remaining,
-                             float step, TickBirths& births) {
-    const std::uint64_t kept = std::min<std::uint64_t>(count, mCapacity - births.count);
-    if (kept > 0)
-        births.batches.push_back({emitterIndex, static_cast<std::uint32_t>(mNextBirthIndex),
-                                  static_cast<std::uint32_t>(kept), remaining, step});
-    births.count += static_cast<std::uint32_t>(kept);
-    births.overflow += static_cast<std::uint32_t>(count - kept);
-    mNextBirthIndex += count;
+dvec3 SpawnSchedule::pathAt(const Emitter& emitter, std::uint64_t tick) const {
+    const auto& path = emitter.path;
+    if (path.empty()) return dvec3(0);
+    const double time = static_cast<double>(tick) / mTickRate;
+    const auto next =
+        std::upper_bound(path.begin(), path.end(), time,
+                         [](double value, const auto& key) { return value < key.first; });
+    if (next == path.begin()) return path.front().second;
+    if (next == path.end()) return path.back().second;
+    const auto& [start, from] = *std::prev(next);
+    return from + (next->second - from) * ((time - start) / (next->first - start));
 }
 
 AliveBound::AliveBound(std::uint32_t capacity, double longestLifetimeTicks)

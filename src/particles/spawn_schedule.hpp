@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which particles are born in which tick, and when within it; in integers, so that no birth is ever
-// lost or doubled.
+// Which particles are born in which tick, and when within it: a pure function of the tick, computed
+// in integers, so that no birth is ever lost or doubled and any tick can be asked for.
 #pragma once
 
 #include <shaders/particles/effect.h>
@@ -19,16 +19,17 @@ struct TickBirths {
     std::uint32_t overflow = 0;  ///< asked for beyond that: rejected at once
 };
 
-/// Walks through the ticks of an effect. A rate gives floor(rate * t) births in the first t
-/// seconds, the i-th (from 0) at (i + 1) / rate; a burst at time b is born in the tick that
-/// contains b. Rates and times count in millionths. Within a tick emitters follow each other, each
-/// with its bursts first.
+/// A rate gives floor(rate * t) births in the first t seconds after the emitter's delay, the i-th
+/// (from 0) at (i + 1) / rate; a burst at time b is born in the tick that contains b. Rates and
+/// times count in millionths. Within a tick emitters follow each other, each with its bursts first.
 class SpawnSchedule {
   public:
     explicit SpawnSchedule(const scene::Effect& effect);
 
-    std::uint64_t tick() const { return mTick; }  ///< that next() will give
-    TickBirths next();
+    TickBirths at(std::uint64_t tick) const;
+
+    /// Births asked for in all ticks before `tick`: the birth index of the next one.
+    std::uint64_t birthsBefore(std::uint64_t tick) const;
 
     /// No tick has more batches.
     std::uint32_t maxBatchesPerTick() const { return mMaxBatches; }
@@ -39,23 +40,35 @@ class SpawnSchedule {
         float remaining = 0;
         std::uint32_t count = 0;
     };
+    /// A burst that repeats: occurrence j at time + j * interval.
+    struct Series {
+        double ticks = 0;          // time of the first
+        double intervalTicks = 1;  // > 0
+        std::uint64_t repeat = 0;
+        std::uint32_t count = 0;
+        std::uint64_t tickOf(std::uint64_t j) const;
+        std::uint64_t occurrencesBefore(std::uint64_t tick) const;
+    };
     struct Emitter {
-        std::uint64_t rateMicro = 0;  // births per 1e6 s
-        std::uint64_t phase = 0;      // (rate * ticks so far) mod tick rate, in millionths
-        std::uint64_t left = 0;       // births until the duration ends
-        std::vector<Burst> bursts;    // by tick
-        std::size_t nextBurst = 0;
+        std::uint64_t rateMicro = 0;   // births per 1e6 s
+        std::uint64_t delayMicro = 0;  // s / 1e6
+        std::uint64_t limit = 0;       // births until the duration ends
+        std::vector<Burst> bursts;     // by tick
+        std::vector<std::uint64_t> burstSums;  // births of the bursts before each, and of all
+        std::vector<Series> series;
+        std::vector<std::pair<double, dvec3>> path;  // seconds
     };
 
-    void addBursts(std::uint32_t emitterIndex, TickBirths& births);
-    void addRate(std::uint32_t emitterIndex, TickBirths& births);
-    void addBatch(std::uint32_t emitterIndex, std::uint64_t count, float remaining, float step,
-                  TickBirths& births);
+    void addBursts(const Emitter& emitter, std::uint64_t tick,
+                   std::vector<shader::BirthBatch>& batches) const;
+    void addRate(const Emitter& emitter, std::uint64_t tick,
+                 std::vector<shader::BirthBatch>& batches) const;
+    std::uint64_t rateBirthsBefore(const Emitter& emitter, std::uint64_t tick) const;
+    dvec3 pathAt(const Emitter& emitter, std::uint64_t tick) const;
 
     std::vector<Emitter> mEmitters;
     std::uint64_t mTickRateMicro = 0;
-    std::uint64_t mTick = 0;
-    std::uint64_t mNextBirthIndex = 0;
+    double mTickRate = 1;
     std::uint32_t mCapacity = 0;
     std::uint32_t mMaxBatches = 0;
 };
@@ -68,6 +81,7 @@ class AliveBound {
 
     void addTick(std::uint32_t births);
     std::uint32_t value() const;
+    std::uint64_t windowTicks() const { return mWindow; }  ///< births longer ago do not count; 0: all
 
   private:
     std::uint32_t mCapacity;

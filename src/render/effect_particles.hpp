@@ -24,7 +24,18 @@ class EffectParticles {
     std::uint64_t bytes() const;
 
   private:
+    /// Where an entry of the scene's effects is simulated.
+    struct Place {
+        std::size_t simulation = 0;
+        std::uint32_t instance = 0;
+        std::uint32_t population = 0;
+    };
+    void groupInstances();
+    void simulate(gpu::Submitter& submitter);
+
     const PreparedScene* mPrepared;
+    std::vector<Place> mPlaces;  // by entry
+    std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
 };
 

@@ -6,31 +6,55 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace brume::scene {
 
-enum class EmitterShape { Point, Sphere, Box, Disc };
+enum class EmitterShape { Point, Line, Disc, Ring, Sphere, Box, Cone, Mesh };
+
+/// What the cone of velocities is around.
+enum class EmitterVelocity {
+    Direction,  ///< Emitter::direction
+    Radial,     ///< the way from the emitter's position to the place of birth
+    Normal      ///< the normal of the shape there
+};
 
 struct Burst {
-    double time = 0;  ///< s
+    double time = 0;  ///< s, after the emitter's delay
     std::uint32_t count = 0;
+    std::uint32_t repeat = 1;  ///< times in all
+    double interval = 0;       ///< s, from one time to the next
+};
+
+/// A triangle that emits, counter-clockwise seen from outside.
+struct EmitterTriangle {
+    dvec3 a{0}, b{0}, c{0};
 };
 
 struct Emitter {
     double rate = 0;  ///< particles per second
     std::vector<Burst> bursts;
-    double duration = kInfinity;  ///< s; rate and bursts stop afterwards
+    double delay = 0;             ///< s before it begins
+    double duration = kInfinity;  ///< s from there; rate and bursts stop afterwards
     EmitterShape shape = EmitterShape::Point;
-    dvec3 position{0};         ///< centre of the shape, effect space
-    double radius = 0;         ///< sphere (births in its volume), disc (births on its area)
-    dvec3 normal{0, 1, 0};     ///< disc, unit
-    dvec3 size{0};             ///< box, full edge lengths
+    dvec3 position{0};       ///< centre of the shape (line: start; cone: tip), effect space
+    double radius = 0;       ///< sphere, disc, ring, cone (of its base)
+    double innerRadius = 0;  ///< disc
+    double height = 1;       ///< cone, > 0
+    dvec3 normal{0, 1, 0};   ///< disc, ring; axis of a cone; unit
+    dvec3 size{0};           ///< box, full edge lengths; line, from its start to its end
+    bool fromSurface = false;  ///< sphere, box, cone: births on the surface, not in the volume
+    std::shared_ptr<const std::vector<EmitterTriangle>> triangles;  ///< mesh; uniform over the area
+    /// Offset of the emitter at times that rise: linear between them, constant outside. Empty: 0.
+    std::vector<std::pair<double, dvec3>> path;
+    double inherit = 0;        ///< share of the emitter's or parent's velocity that births take over
     dvec2 speed{0};            ///< m/s, [low, high]
+    EmitterVelocity velocity = EmitterVelocity::Direction;
     dvec3 direction{0, 1, 0};  ///< unit
-    double spread = 0;         ///< half angle of the cone around direction, radians
+    double spread = 0;         ///< half angle of the cone of velocities, radians
     dvec2 lifetime{1};         ///< s, [low, high]
 };
 
@@ -45,10 +69,23 @@ struct ModuleSettings {
     std::string where;                           ///< file:line:column of the module, for messages
 };
 
-/// Piecewise linear over normalised age in [0, 1]; keys sorted, at least one.
+/// Piecewise linear over normalised age in [0, 1], or over speed; keys sorted, at least one.
 template <typename T>
 struct Curve {
     std::vector<std::pair<double, T>> keys;
+};
+
+struct Effect;
+
+enum class SubEmitterTrigger { Birth, Death, Collision, Way };
+
+/// Particles of another effect that come from those of this one.
+struct SubEmitter {
+    SubEmitterTrigger trigger = SubEmitterTrigger::Death;
+    dvec2 count{1};   ///< per event, [low, high]; fractions are probabilities
+    double rate = 0;  ///< Way: per second along the way of each particle
+    std::shared_ptr<const Effect> effect;  ///< its only emitter has no rate and no bursts
+    std::string where;                     ///< file:line:column, for messages
 };
 
 struct Effect {
@@ -57,9 +94,14 @@ struct Effect {
     std::string medium;     ///< name in the scene that uses the effect
     std::vector<Emitter> emitters;
     std::vector<ModuleSettings> modules;
+    std::vector<SubEmitter> subEmitters;
     Curve<double> radius{{{0, 0.05}}};
     Curve<double> density{{{0, 1}}};
     Curve<dvec3> tint{{{0, dvec3(1)}}};  ///< multiplies albedo and emission of the medium
+    Curve<double> temperature;           ///< K; with keys: the tint is multiplied by that of a black
+                                         ///< body, relative to the luminance at 1500 K
+    Curve<double> radiusBySpeed;         ///< m/s to a factor; no keys: 1
+    Curve<double> densityBySpeed;
     bool smoothProfile = false;
 };
 

@@ -209,15 +209,26 @@ class SceneReader {
         EffectInstance instance;
         instance.file = existingFile(node["file"]);
         instance.effect = loadEffect(instance.file, mLog);
+        instance.worldFromEffect = readTransform(node);
+        node.read("seed", instance.seed);
+        node.read("time", instance.time);
+        addEffect(node, std::move(instance));
+    }
+
+    /// The instance, then its sub-emitters, each before its own.
+    void addEffect(const JsonNode& node, EffectInstance instance) {
         const std::uint32_t* medium = mMedia.find(instance.effect.medium);
         if (!medium)
             throw node["file"].error("the effect wants a medium that the scene lacks: " +
                                      mMedia.describeMissing(instance.effect.medium));
         instance.medium = *medium;
-        instance.worldFromEffect = readTransform(node);
-        node.read("seed", instance.seed);
-        node.read("time", instance.time);
-        mScene.effects.push_back(std::move(instance));
+        mScene.effects.push_back(instance);
+        instance.isSubEmitter = true;
+        const std::vector<SubEmitter> subEmitters = instance.effect.subEmitters;
+        for (const SubEmitter& sub : subEmitters) {
+            instance.effect = *sub.effect;
+            addEffect(node, instance);
+        }
     }
 
     struct MeshFile {

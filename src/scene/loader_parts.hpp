@@ -21,7 +21,5 @@ dmat4 readTransform(const JsonNode& parent);
 /// The mesh of a member "shape", placed by its transform.
 Mesh readShape(const JsonNode& node);
 
-/// The effect file's structs, from its root.
-Effect readEffect(const JsonNode& root);
 
 }  // namespace brume::scene

@@ -86,7 +86,9 @@ struct Material {
     double collimation = 1;
     // Thin and solid.
     double ior = 1.5;
-    double roughness = 0;
+    /// >= 0: mirrors the background by Fresnel's equations and shows highlights of that roughness
+    /// (GGX, squared); what it mirrors is not let through. < 0: matt.
+    double roughness = -1;
     // Solid: homogeneous medium inside a closed mesh.
     dvec3 absorption{0};
     dvec3 scattering{0};
@@ -146,6 +148,8 @@ struct Sphere {
     Profile profile = Profile::Constant;
 };
 
+/// An effect of the scene, or a sub-emitter of the instance before it: those follow their root in
+/// the order of particles::compileEffect(), with its transform, seed and times.
 struct EffectInstance {
     std::filesystem::path file;
     Effect effect;  ///< its medium name resolved to `medium`
@@ -153,6 +157,7 @@ struct EffectInstance {
     dmat4 worldFromEffect{1};
     std::uint64_t seed = 0;
     double time = 0;  ///< seconds simulated before the frame
+    bool isSubEmitter = false;
 };
 
 struct RenderSettings {

@@ -14,11 +14,12 @@ shader::EffectParameters noiseParameters(double octaves, double scale, double st
     scene::Effect effect = burstEffect(1);
     effect.modules = {moduleSettings(
         "curl_noise", {{"strength", {strength}}, {"scale", {scale}}, {"octaves", {octaves}}})};
-    return compileEffect(effect, 12, 0).parameters;
+    return compileEffect(effect)[0].parameters;
 }
 
 dvec3 fieldAt(const shader::EffectParameters& parameters, const dvec3& p) {
-    return shader::fieldAcceleration(parameters, vec3(p));
+    return shader::surroundingsAt(parameters, parameters.step, shader::TickFields{}, 12, vec3(p))
+        .acceleration;
 }
 
 TEST(CurlNoise, Divergence_IsBelowAThousandthOfTheGradient) {

@@ -11,7 +11,7 @@ namespace {
 
 void expectRefused(const scene::Effect& effect, const std::string& part) {
     try {
-        compileEffect(effect, 0, 0);
+        compileEffect(effect);
         FAIL() << "no error; expected: " << part;
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Input);
@@ -56,8 +56,8 @@ TEST(Appearance, Curves_ArePiecewiseLinear) {
     effect.radius.keys = {{0.25, 1}, {0.5, 3}, {0.75, 2}};
     effect.density.keys = {{0, 1}, {0.4, 1}, {0.4, 5}, {1, 5}};
     effect.tint.keys = {{0, dvec3(1, 0, 0)}, {1, dvec3(0, 0, 1)}};
-    const shader::EffectParameters parameters = compileEffect(effect, 0, 0).parameters;
-    const auto at = [&](float age) { return shader::evaluateAppearance(parameters, age); };
+    const shader::EffectParameters parameters = compileEffect(effect)[0].parameters;
+    const auto at = [&](float age) { return shader::evaluateAppearance(parameters, age, 0); };
     EXPECT_FLOAT_EQ(at(0).radius, 1);
     EXPECT_FLOAT_EQ(at(0.25f).radius, 1);
     EXPECT_FLOAT_EQ(at(0.375f).radius, 2);

@@ -65,4 +65,98 @@ inline scene::Effect busyEffect(std::uint32_t capacity = 6000) {
     return effect;
 }
 
+/// busyEffect() with every shape, force, collider and killer, and with sub-emitters of every kind.
+inline scene::Effect fullEffect(std::uint32_t capacity = 2000) {
+    using scene::EmitterShape, scene::EmitterVelocity;
+    const auto word = [](scene::ModuleSettings settings, const std::string& key,
+                         const std::string& value) {
+        settings.texts[key] = value;
+        return settings;
+    };
+    scene::Effect effect = busyEffect(capacity);
+    for (scene::Emitter& emitter : effect.emitters) {
+        emitter.rate *= 0.3;
+        emitter.path = {{0, dvec3(0)}, {0.4, dvec3(1, 0.5, 0)}, {0.9, dvec3(-1, 0, 2)}};
+        emitter.inherit = 0.5;
+    }
+    const auto add = [&](EmitterShape shape, EmitterVelocity velocity, bool fromSurface) {
+        effect.emitters.push_back({.rate = 60,
+                                   .bursts = {{0.1, 7, 1000, 0.13}},
+                                   .delay = 0.2,
+                                   .shape = shape,
+                                   .radius = 0.7,
+                                   .innerRadius = 0.2,
+                                   .height = 1.5,
+                                   .normal = glm::normalize(dvec3(1, 2, -1)),
+                                   .size = {1, 0.5, 0.25},
+                                   .fromSurface = fromSurface,
+                                   .speed = {1, 4},
+                                   .velocity = velocity,
+                                   .direction = glm::normalize(dvec3(0.2, 1, 0.4)),
+                                   .spread = 0.3,
+                                   .lifetime = {0.3, 2}});
+        effect.emitters.back().triangles =
+            std::make_shared<const std::vector<scene::EmitterTriangle>>(
+                std::vector<scene::EmitterTriangle>{
+                    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, 1, 0}, {0, 0, 0.3}}});
+    };
+    add(EmitterShape::Line, EmitterVelocity::Direction, false);
+    add(EmitterShape::Ring, EmitterVelocity::Normal, false);
+    add(EmitterShape::Sphere, EmitterVelocity::Radial, true);
+    add(EmitterShape::Box, EmitterVelocity::Normal, true);
+    add(EmitterShape::Cone, EmitterVelocity::Normal, true);
+    add(EmitterShape::Cone, EmitterVelocity::Radial, false);
+    add(EmitterShape::Mesh, EmitterVelocity::Normal, false);
+    effect.modules[2].values["drift"] = {0.5, -3, 1};
+    for (const scene::ModuleSettings& module :
+         {moduleSettings("quadratic_drag", {{"coefficient", {0.05}}, {"wind", {0, 1, 0}}}),
+          moduleSettings("vortex", {{"circulation", {6}}, {"inflow", {0.2}}, {"updraft", {0.3}},
+                                    {"length", {5}}, {"rate", {2}}, {"axis", {0.1, 1, 0.3}}}),
+          moduleSettings("attractor", {{"center", {2, 1, 0}}, {"strength", {5}},
+                                       {"killRadius", {0.1}}}),
+          moduleSettings("attractor", {{"center", {-2, 0, 0}}, {"axis", {0, 1, 0.5}},
+                                       {"strength", {-1}}, {"falloff", {1}}}),
+          moduleSettings("attractor", {{"strength", {0.1}}, {"falloff", {-1}}}),
+          moduleSettings("collide_plane", {{"point", {0, -2, 0}}, {"restitution", {0.7}},
+                                           {"radius", {0.05}}}),
+          word(moduleSettings("collide_plane", {{"point", {0, 0, -6}}, {"normal", {0.1, 0, 1}}}),
+               "response", "stick"),
+          moduleSettings("collide_sphere", {{"center", {0, -1.5, 0}}, {"size", {1}}}),
+          word(moduleSettings("collide_sphere", {{"size", {7}}, {"restitution", {1}}}), "side",
+               "inside"),
+          moduleSettings("collide_box", {{"center", {1.5, -1, 1}}, {"size", {1, 0.2, 2}},
+                                         {"rotate", {10, 20, 30}}}),
+          word(moduleSettings("collide_box", {{"size", {12, 12, 12}}, {"rotate", {0, 45, 0}}}),
+               "side", "inside"),
+          moduleSettings("collide_capsule", {{"from", {-2, -1, 1}}, {"to", {-1, 0, 2}},
+                                             {"size", {0.3}}, {"friction", {0.6}}}),
+          word(moduleSettings("kill_box", {{"size", {13, 13, 13}}}), "side", "inside"),
+          moduleSettings("kill_sphere", {{"center", {3, 3, 3}}, {"size", {0.7}}}),
+          moduleSettings("kill_plane", {{"point", {0, -5, 0}}, {"normal", {0, 1, 0.1}}})})
+        effect.modules.push_back(module);
+
+    const auto child = std::make_shared<scene::Effect>(burstEffect(1));
+    child->capacity = capacity;
+    child->emitters = {{.bursts = {},
+                        .shape = EmitterShape::Sphere,
+                        .radius = 0.02,
+                        .inherit = 0.3,
+                        .speed = {0, 2},
+                        .velocity = EmitterVelocity::Radial,
+                        .spread = 1,
+                        .lifetime = {0.01, 0.4}}};
+    child->modules = {moduleSettings("gravity"),
+                      moduleSettings("collide_plane", {{"point", {0, -2, 0}}})};
+    const auto grandchild = std::make_shared<scene::Effect>(*child);
+    child->subEmitters = {{.trigger = scene::SubEmitterTrigger::Death, .count = {0, 1.5},
+                           .effect = grandchild}};
+    using Trigger = scene::SubEmitterTrigger;
+    effect.subEmitters = {
+        {.trigger = Trigger::Birth, .count = {0, 2}, .effect = child},
+        {.trigger = Trigger::Death, .count = {3, 3}, .effect = grandchild},
+        {.trigger = Trigger::Collision, .count = dvec2(0.7), .effect = grandchild},
+        {.trigger = Trigger::Way, .rate = 17, .effect = grandchild}};
+    return effect;
+}
+
 }  // namespace brume::particles

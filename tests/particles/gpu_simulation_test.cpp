@@ -38,23 +38,34 @@ class GpuSimulationTest : public testing::Test {
 
     /// Names the first particle that differs.
     void expectSame(const GpuSimulation& gpu, const CpuSimulation& cpu) {
-        const GpuSimulation::Snapshot snapshot = gpu.readState(*sSubmitter);
-        const Counters &a = snapshot.counters, &b = cpu.counters();
+        const SimulationState snapshot = gpu.readState(*sSubmitter);
         EXPECT_EQ(snapshot.tick, cpu.tick());
-        EXPECT_EQ(a.alive, b.alive);
-        EXPECT_EQ(a.born, b.born);
-        EXPECT_EQ(a.died, b.died);
-        EXPECT_EQ(a.rejected, b.rejected);
-        EXPECT_LE(a.alive, gpu.slotCount());
-        ASSERT_EQ(snapshot.particles.size(), cpu.particles().size());
-        for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
-            const Particle &p = snapshot.particles[i], &q = cpu.particles()[i];
+        for (std::uint32_t p = 0; p < cpu.populationCount(); ++p) {
+            SCOPED_TRACE(testing::Message() << "population " << p);
+            const Counters &a = snapshot.counters[p], &b = cpu.counters(p);
+            EXPECT_EQ(a.alive, b.alive);
+            EXPECT_EQ(a.born, b.born);
+            EXPECT_EQ(a.died, b.died);
+            EXPECT_EQ(a.rejected, b.rejected);
+            EXPECT_EQ(a.killed, b.killed);
+            EXPECT_LE(a.alive, gpu.slotCount(p));
+            expectSame(snapshot.populations[p], cpu.particles(p));
+        }
+        EXPECT_EQ(snapshot.hash(), cpu.hash());
+    }
+
+    static void expectSame(const std::vector<Particle>& got, const std::vector<Particle>& wanted) {
+        ASSERT_EQ(got.size(), wanted.size());
+        for (std::size_t i = 0; i < got.size(); ++i) {
+            const Particle &p = got[i], &q = wanted[i];
             ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0)
                 << "particle " << i << ", birth " << p.birthIndex << " and " << q.birthIndex
                 << ", position " << p.position.x << " " << p.position.y << " " << p.position.z
-                << " and " << q.position.x << " " << q.position.y << " " << q.position.z;
+                << " and " << q.position.x << " " << q.position.y << " " << q.position.z
+                << ", velocity " << p.velocity.x << " " << p.velocity.y << " " << p.velocity.z
+                << " and " << q.velocity.x << " " << q.velocity.y << " " << q.velocity.z
+                << ", lifetime " << p.life.lifetimeTicks << " and " << q.life.lifetimeTicks;
         }
-        EXPECT_EQ(snapshot.hash(), cpu.hash());
     }
 
     static std::unique_ptr<gpu::Device> sDevice;
@@ -87,17 +98,82 @@ TEST_F(GpuSimulationTest, ThousandTicksOfAllModules_GiveTheBitsOfTheTwin) {
 }
 
 TEST_F(GpuSimulationTest, EachModuleAlone_GivesTheBitsOfTheTwin) {
-    const auto all = busyEffect().modules;
+    const auto all = fullEffect().modules;
     for (std::size_t i = 0; i <= all.size(); ++i) {
-        scene::Effect effect = busyEffect();
-        effect.modules.clear();
+        scene::Effect effect = fullEffect(500);
+        effect.subEmitters.clear();
+        // Gravity and drag bring particles to colliders.
+        effect.modules.resize(2);
         if (i < all.size()) effect.modules.push_back(all[i]);
+        SCOPED_TRACE(effect.modules.back().type);
         GpuSimulation gpu(device(), effect, 1);
         CpuSimulation cpu(effect, 1);
-        runTicks(gpu, 100);
-        cpu.step(100);
+        runTicks(gpu, 70);
+        cpu.step(70);
         expectSame(gpu, cpu);
     }
+}
+
+TEST_F(GpuSimulationTest, EachSubEmitterAlone_GivesTheBitsOfTheTwin) {
+    const auto all = fullEffect().subEmitters;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        SCOPED_TRACE(i);
+        scene::Effect effect = fullEffect(500);
+        effect.modules.resize(2);
+        effect.modules.push_back(moduleSettings("collide_plane"));
+        effect.subEmitters = {all[i]};
+        GpuSimulation gpu(device(), effect, 1);
+        CpuSimulation cpu(effect, 1);
+        for (const int ticks : {1, 30, 70}) {
+            runTicks(gpu, static_cast<std::uint64_t>(ticks));
+            cpu.step(static_cast<std::uint64_t>(ticks));
+            expectSame(gpu, cpu);
+        }
+        EXPECT_GT(cpu.counters(1).born, 100u);
+    }
+}
+
+TEST_F(GpuSimulationTest, Everything_GivesTheBitsOfTheTwin) {
+    GpuSimulation gpu(device(), fullEffect(), 8);
+    CpuSimulation cpu(fullEffect(), 8);
+    for (const int ticks : {1, 20, 200}) {
+        runTicks(gpu, static_cast<std::uint64_t>(ticks));
+        cpu.step(static_cast<std::uint64_t>(ticks));
+        expectSame(gpu, cpu);
+    }
+    for (std::uint32_t p = 0; p < cpu.populationCount(); ++p)
+        EXPECT_GT(cpu.counters(p).alive, 50u) << p;
+}
+
+TEST_F(GpuSimulationTest, Instances_EachHaveTheirOwnBitsInSharedDispatches) {
+    const std::vector<EffectInstance> instances = {{3, 0}, {3, 1}, {99, 0}, {4, 7}};
+    scene::Effect effect = busyEffect(300);
+    effect.subEmitters = {fullEffect(300).subEmitters[1]};
+    GpuSimulation gpu(device(), effect, instances, {16, 7});
+    runTicks(gpu, 60);
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        CpuSimulation cpu(effect, instances[i].seed, instances[i].instance);
+        cpu.step(60);
+        EXPECT_GT(cpu.counters(1).born, 20u);
+        EXPECT_EQ(gpu.readState(*sSubmitter, i).hash(), cpu.hash()) << i;
+    }
+}
+
+TEST_F(GpuSimulationTest, RestoredState_GoesOnAsIfNothingHappened) {
+    scene::Effect effect = busyEffect(400);
+    effect.subEmitters = fullEffect(400).subEmitters;
+    CpuSimulation cpu(effect, 2);
+    cpu.step(90);
+    GpuSimulation gpu(device(), effect, 2);
+    gpu.writeState(*sSubmitter, std::array{cpu.state()});
+    expectSame(gpu, cpu);
+    runTicks(gpu, 50);
+    CpuSimulation other(effect, 2);
+    other.restore(cpu.state());
+    other.step(50);
+    cpu.step(50);
+    expectSame(gpu, cpu);
+    EXPECT_EQ(other.hash(), cpu.hash());
 }
 
 TEST_F(GpuSimulationTest, StiffDrag_GivesTheBitsOfTheTwin) {

@@ -16,7 +16,7 @@ std::string messageOf(const scene::ModuleSettings& settings) {
     scene::Effect effect = burstEffect(1);
     effect.modules = {settings};
     try {
-        compileEffect(effect, 0, 0);
+        compileEffect(effect);
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Input);
         return error.what();
@@ -32,6 +32,10 @@ TEST(Modules, Registry_IsCompleteAndItsDefaultsAreAllowed) {
         scene::ModuleSettings settings = moduleSettings(module.info.name);
         for (const ModuleKey& key : module.info.keys) {
             EXPECT_FALSE(key.unit.empty() || key.summary.empty()) << module.info.name << key.name;
+            if (!key.choices.empty()) {
+                settings.texts[key.name] = key.choices[0];
+                continue;
+            }
             EXPECT_TRUE(key.fallback.size() == 1 || key.fallback.size() == 3);
             settings.values[key.name] = key.fallback;
         }
@@ -53,7 +57,9 @@ TEST(Modules, Documentation_NamesEveryKeyWithItsUnit) {
 TEST(Modules, UnknownModule_ListsTheKnownOnes) {
     EXPECT_EQ(messageOf(moduleSettings("gravitation")),
               "setting up the modules of an effect: test.effect.json:3:5: there is no module "
-              "'gravitation', known are gravity, drag, curl_noise");
+              "'gravitation', known are gravity, drag, quadratic_drag, curl_noise, vortex, attractor, "
+              "collide_plane, collide_sphere, collide_box, collide_capsule, kill_plane, kill_sphere, "
+              "kill_box");
 }
 
 TEST(Modules, UnknownKey_ListsTheKnownOnes) {
@@ -72,22 +78,33 @@ TEST(Modules, WrongValues_AreRefused) {
     contains(moduleSettings("drag", {{"rate", {-1}}}), "'rate' of module 'drag' is -1");
     contains(moduleSettings("drag", {{"rate", {std::nan("")}}}), "is nan");
     contains(moduleSettings("curl_noise", {{"octaves", {1.5}}}), "whole numbers allowed");
+    contains(moduleSettings("vortex", {{"axis", {0, 0, 0}}}), "'axis' of module 'vortex' is zero");
+    scene::ModuleSettings words = moduleSettings("collide_plane");
+    words.texts["response"] = "explode";
+    words.whereOf["response"] = "test.effect.json:4:9";
+    contains(words, "test.effect.json:4:9: 'response' of module 'collide_plane' is 'explode', one "
+                    "of bounce, stick, kill allowed");
+    words.texts = {{"friction", "high"}};
+    contains(words, "'friction' of module 'collide_plane' is a word, a number allowed");
+    contains(moduleSettings("collide_plane", {{"response", {1}}}),
+             "'response' of module 'collide_plane' is a number, one of bounce");
+    contains(moduleSettings("collide_capsule", {{"to", {0, 0, 0}}}), "are the same place");
     contains(moduleSettings("curl_noise", {{"scale", {0}}}), "'scale' of module 'curl_noise' is 0");
 }
 
-TEST(Modules, FifthField_IsRefused) {
+TEST(Modules, OneModuleTooMany_IsRefused) {
     scene::Effect effect = burstEffect(1);
-    effect.modules.assign(shader::kMaxFieldsPerType, moduleSettings("curl_noise"));
-    EXPECT_NO_THROW(compileEffect(effect, 0, 0));
+    effect.modules.assign(shader::kMaxModulesPerType, moduleSettings("curl_noise"));
+    EXPECT_NO_THROW(compileEffect(effect));
     effect.modules.push_back(moduleSettings("curl_noise"));
-    EXPECT_THROW(compileEffect(effect, 0, 0), Error);
+    EXPECT_THROW(compileEffect(effect), Error);
 }
 
 TEST(Modules, TwoDrags_AddTheirRatesAndWeightTheirWinds) {
     scene::Effect effect = burstEffect(1);
     effect.modules = {moduleSettings("drag", {{"rate", {1}}, {"wind", {4, 0, 0}}}),
                       moduleSettings("drag", {{"rate", {3}}, {"wind", {0, 4, 0}}})};
-    const CompiledEffect compiled = compileEffect(effect, 0, 0);
+    const CompiledEffect compiled = compileEffect(effect)[0];
     EXPECT_FLOAT_EQ(compiled.parameters.step.dragPerTick, static_cast<float>(4.0 / 120));
     EXPECT_EQ(compiled.parameters.step.wind, vec3(1, 3, 0));
 }

@@ -25,7 +25,7 @@ TEST(Spawn, AnyRateAndTickRate_GivesTheExactNumber) {
             SpawnSchedule schedule(rateEffect(rate, tickRate));
             std::uint64_t born = 0;
             for (int tick = 1; tick <= 3000; ++tick) {
-                born += schedule.next().count;
+                born += schedule.at(static_cast<std::uint64_t>(tick - 1)).count;
                 const double exact = rate * tick / tickRate;
                 ASSERT_LE(static_cast<double>(born), exact * (1 + 1e-7) + 1e-6) << rate << tickRate;
                 ASSERT_GT(static_cast<double>(born), exact * (1 - 1e-7) - 1 - 1e-6)
@@ -66,6 +66,18 @@ TEST(Spawn, BirthsWithinTicks_LieAtTheirTimes) {
     ASSERT_EQ(simulation.particles().size(), 308u);
     for (const Particle& p : simulation.particles())
         EXPECT_NEAR(p.position.y, 3 * (4 - (p.birthIndex + 1) / 77.0), 2e-5) << p.birthIndex;
+}
+
+TEST(Spawn, AnyFrameSlicingOfEverything_GivesTheSameBits) {
+    constexpr double kSeconds = 1.5;
+    CpuSimulation whole(fullEffect(600), 3);
+    whole.advanceTo(kSeconds);
+    for (const int framesPerSecond : {24, 30, 60, 144}) {
+        CpuSimulation sliced(fullEffect(600), 3);
+        for (int frame = 1; frame <= kSeconds * framesPerSecond; ++frame)
+            sliced.advanceTo(static_cast<double>(frame) / framesPerSecond);
+        EXPECT_EQ(sliced.hash(), whole.hash()) << framesPerSecond;
+    }
 }
 
 TEST(Spawn, Durations_EndRateAndBursts) {
@@ -139,10 +151,11 @@ int visitSpawned(const scene::Emitter& emitter, Visit&& visit) {
     constexpr int kCount = 100000;
     scene::Effect effect;
     effect.emitters = {emitter};
-    const CompiledEffect compiled = compileEffect(effect, 11, 0);
-    const shader::BirthBatch batch{0, 0, kCount, 1, 0};
+    const CompiledEffect compiled = compileEffect(effect)[0];
+    const shader::RandomStream random = instanceParameters(11, 0, 0).random;
     for (std::uint32_t i = 0; i < kCount; ++i)
-        visit(shader::spawnParticle(compiled.parameters.random, compiled.emitters[0], batch, i, 0));
+        visit(shader::spawnParticle(compiled.triangles.data(), random, compiled.emitters[0], i, 1,
+                                    0, vec3(0), vec3(0)));
     return kCount;
 }
 
@@ -185,10 +198,10 @@ TEST(SpawnShape, Box_FillsItsVolumeUniformly) {
     expectUniform(z, n);
 }
 
-TEST(SpawnShape, Disc_FillsItsAreaAcrossTheDirection) {
+TEST(SpawnShape, Disc_FillsItsAreaAcrossItsNormal) {
     std::array<int, 50> radial{}, azimuth{};
     const int n = visitSpawned(
-        {.bursts = {}, .shape = scene::EmitterShape::Disc, .radius = 3, .direction = {0, 0, 1}},
+        {.bursts = {}, .shape = scene::EmitterShape::Disc, .radius = 3, .normal = {0, 0, 1}},
         [&](const Particle& p) {
             const dvec3 d = dvec3(p.position) / 3.0;
             EXPECT_NEAR(d.z, 0, 1e-6);
@@ -197,6 +210,203 @@ TEST(SpawnShape, Disc_FillsItsAreaAcrossTheDirection) {
         });
     expectUniform(radial, n);
     expectUniform(azimuth, n);
+}
+
+TEST(SpawnShape, Disc_LeavesItsInnerRadiusFree) {
+    std::array<int, 50> radial{};
+    const int n = visitSpawned(
+        {.bursts = {}, .shape = scene::EmitterShape::Disc, .radius = 2, .innerRadius = 1},
+        [&](const Particle& p) {
+            const double r2 = p.position.x * p.position.x + p.position.z * p.position.z;
+            ++radial[binOf((r2 - 1) / 3, 50)];
+        });
+    expectUniform(radial, n);
+}
+
+TEST(SpawnShape, LineAndRing_AreFilledEvenly) {
+    std::array<int, 50> along{}, around{};
+    int n = visitSpawned({.bursts = {},
+                          .shape = scene::EmitterShape::Line,
+                          .position = {1, 0, 0},
+                          .size = {0, 3, 4}},
+                         [&](const Particle& p) {
+                             EXPECT_EQ(p.position.x, 1.0f);
+                             ++along[binOf(p.position.y / 3, 50)];
+                         });
+    expectUniform(along, n);
+    n = visitSpawned({.bursts = {}, .shape = scene::EmitterShape::Ring, .radius = 2},
+                     [&](const Particle& p) {
+                         EXPECT_NEAR(glm::length(p.position), 2, 1e-6);
+                         ++around[binOf(0.5 + std::atan2(p.position.z, p.position.x) / (2 * kPi),
+                                        50)];
+                     });
+    expectUniform(around, n);
+}
+
+TEST(SpawnShape, Surfaces_AreFilledByArea) {
+    std::array<int, 50> height{};
+    int n = visitSpawned(
+        {.bursts = {}, .shape = scene::EmitterShape::Sphere, .radius = 2, .fromSurface = true},
+        [&](const Particle& p) {
+            EXPECT_NEAR(glm::length(p.position), 2, 1e-6);
+            ++height[binOf(0.5 + p.position.y / 4.0, 50)];
+        });
+    expectUniform(height, n);
+
+    // Faces of 2, 4 and 8 m^2 on either side: 28 m^2, in cells of 1 m^2.
+    std::array<int, 28> cells{};
+    n = visitSpawned({.bursts = {},
+                      .shape = scene::EmitterShape::Box,
+                      .size = {4, 2, 1},
+                      .fromSurface = true},
+                     [&](const Particle& p) {
+                         const dvec3 q = dvec3(p.position) + dvec3(2, 1, 0.5);
+                         const auto cell = [](double x, int last) {
+                             return std::clamp(static_cast<int>(x), 0, last);
+                         };
+                         const bool isX = std::abs(std::abs(p.position.x) - 2) < 1e-6;
+                         const bool isY = std::abs(std::abs(p.position.y) - 1) < 1e-6;
+                         const int low = isX   ? cell(q.y, 1)
+                                         : isY ? 2 + cell(q.x, 3)
+                                               : 6 + cell(q.x, 3) * 2 + cell(q.y, 1);
+                         const float side = isX   ? p.position.x
+                                            : isY ? p.position.y
+                                                  : p.position.z;
+                         ++cells[static_cast<std::size_t>(low + (side > 0 ? 14 : 0))];
+                     });
+    expectUniform(cells, n);
+}
+
+TEST(SpawnShape, Cone_FillsVolumeAndMantle) {
+    scene::Emitter emitter{
+        .bursts = {}, .shape = scene::EmitterShape::Cone, .radius = 2, .height = 3};
+    std::array<int, 50> part{}, radial{}, mantle{};
+    int n = visitSpawned(emitter, [&](const Particle& p) {
+        const double t = p.position.y / 3.0;
+        const double r = std::hypot(p.position.x, p.position.z) / (2 * t);
+        ++part[binOf(t * t * t, 50)];
+        ++radial[binOf(r * r, 50)];
+    });
+    expectUniform(part, n);
+    expectUniform(radial, n);
+    emitter.fromSurface = true;
+    n = visitSpawned(emitter, [&](const Particle& p) {
+        const double t = p.position.y / 3.0;
+        EXPECT_NEAR(std::hypot(p.position.x, p.position.z), 2 * t, 1e-5);
+        ++mantle[binOf(t * t, 50)];
+    });
+    expectUniform(mantle, n);
+}
+
+TEST(SpawnShape, Mesh_IsFilledByAreaWithItsNormals) {
+    // Triangles of 1/2 and 3/2 m^2 and one without area.
+    scene::Emitter emitter{.bursts = {},
+                           .shape = scene::EmitterShape::Mesh,
+                           .speed = dvec2(1),
+                           .velocity = scene::EmitterVelocity::Normal};
+    emitter.triangles = std::make_shared<const std::vector<scene::EmitterTriangle>>(
+        std::vector<scene::EmitterTriangle>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                            {{5, 5, 5}, {6, 5, 5}, {7, 5, 5}},
+                                            {{0, 0, 0}, {0, 3, 0}, {0, 0, 1}}});
+    std::array<int, 4> quarters{};
+    std::array<int, 20> strips{};
+    int second = 0;
+    const int n = visitSpawned(emitter, [&](const Particle& p) {
+        const bool isFirst = p.velocity.z > 0.5f;
+        EXPECT_LT(glm::length(p.velocity - (isFirst ? vec3(0, 0, 1) : vec3(1, 0, 0))), 1e-6);
+        if (isFirst) return static_cast<void>(++quarters[0]);
+        ++second;
+        // Strips of equal area from the corner at the origin.
+        const double s = p.position.y / 3.0 + p.position.z;
+        ++strips[binOf(s * s, 20)];
+    });
+    EXPECT_NEAR(quarters[0], n / 4.0, 5 * std::sqrt(n * 0.25 * 0.75));
+    expectUniform(strips, second);
+}
+
+TEST(SpawnVelocity, Radial_PointsAwayFromTheEmitter) {
+    visitSpawned({.bursts = {},
+                  .shape = scene::EmitterShape::Sphere,
+                  .position = {3, 0, 0},
+                  .radius = 2,
+                  .speed = dvec2(2),
+                  .velocity = scene::EmitterVelocity::Radial},
+                 [&](const Particle& p) {
+                     const dvec3 out = glm::normalize(dvec3(p.position) - dvec3(3, 0, 0));
+                     EXPECT_LT(glm::length(dvec3(p.velocity) - 2.0 * out), 1e-5);
+                 });
+}
+
+TEST(Spawn, RepeatedBursts_ComeAtTheirTimesAndEnd) {
+    scene::Effect effect = burstEffect(1, 1);
+    effect.capacity = 1000;
+    effect.emitters[0].bursts = {{0.1, 3, 5, 0.25}};
+    effect.emitters[0].delay = 0.4;
+    CpuSimulation simulation(effect, 1);
+    for (const auto& [time, born] : std::vector<std::pair<double, std::uint32_t>>{
+             {0.49, 0}, {0.51, 3}, {0.74, 3}, {0.76, 6}, {1.49, 12}, {1.51, 15}, {9, 15}}) {
+        simulation.advanceTo(time);
+        EXPECT_EQ(simulation.counters().born, born) << time;
+    }
+    for (const Particle& p : simulation.particles())
+        EXPECT_NEAR(p.position.y, 9 - (0.5 + 0.25 * (p.birthIndex / 3)), 1e-4);
+}
+
+TEST(Spawn, Delay_ShiftsRateAndDuration) {
+    scene::Effect effect = rateEffect(100, 119.88);
+    effect.emitters[0].delay = 1.2345;
+    effect.emitters[0].duration = 2;
+    effect.emitters[0].speed = dvec2(1);
+    CpuSimulation simulation(effect, 1);
+    simulation.step(600);
+    EXPECT_EQ(simulation.counters().born, 200u);
+    const double now = 600 / 119.88;
+    for (const Particle& p : simulation.particles())
+        EXPECT_NEAR(p.position.y, now - (1.2345 + (p.birthIndex + 1) / 100.0), 1e-4);
+}
+
+TEST(Spawn, MovingEmitter_LeavesBirthsAlongItsWay) {
+    scene::Effect effect = rateEffect(1000, 60);
+    effect.emitters[0].path = {{0, dvec3(0)}, {1, dvec3(6, 0, 0)}, {2, dvec3(6, 3, 0)}};
+    effect.emitters[0].inherit = 0.5;
+    CpuSimulation simulation(effect, 1);
+    simulation.advanceTo(1);
+    ASSERT_EQ(simulation.particles().size(), 1000u);
+    for (const Particle& p : simulation.particles()) {
+        const double born = (p.birthIndex + 1) / 1000.0;
+        EXPECT_NEAR(p.position.x, 6 * born + 3 * (1 - born), 1e-4);  // takes over half the speed
+        EXPECT_NEAR(p.velocity.x, 3, 1e-5);
+    }
+}
+
+TEST(Spawn, AnyTick_CanBeAskedForAlone) {
+    const SpawnSchedule schedule(fullEffect());
+    std::uint64_t born = 0;
+    for (std::uint64_t tick = 0; tick < 400; ++tick) {
+        ASSERT_EQ(schedule.birthsBefore(tick), born) << tick;
+        const TickBirths births = schedule.at(tick);
+        born += births.count + births.overflow;
+        for (const shader::BirthBatch& batch : births.batches) {
+            ASSERT_GE(batch.remaining, 0.0f);
+            ASSERT_LE(batch.remaining, 1.0f);
+        }
+    }
+    EXPECT_LE(schedule.at(20736000).batches.size(), schedule.maxBatchesPerTick());
+}
+
+TEST(Spawn, After48Hours_MotionIsThatOfTheStart) {
+    // Two bursts of the same birth indices cannot be; the same places and speeds can.
+    scene::Effect effect = burstEffect(1, 3, {1, 1, 0});
+    effect.modules = {moduleSettings("gravity"), moduleSettings("drag")};
+    const auto after = [&](double start) {
+        effect.emitters[0].bursts = {{start, 1}};
+        CpuSimulation simulation(effect, 1);
+        simulation.advanceTo(start + 2);
+        return simulation.particles().at(0);
+    };
+    const Particle early = after(0.25), late = after(48 * 3600 + 0.25);
+    EXPECT_EQ(early.position, late.position);
+    EXPECT_EQ(early.velocity, late.velocity);
 }
 
 TEST(SpawnVelocity, Spread_FillsTheConeUniformly) {

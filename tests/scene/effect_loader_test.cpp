@@ -100,14 +100,15 @@ TEST(Effect_Errors, EachFault_IsNamedAtItsPlace) {
     EXPECT_EQ(
         parseMessage(withEmitter("\"shape\":{\"type\":\"sphere\"}")),
         start + "61: key \"emitters[0].shape.radius\": missing, must be a number of at least 0");
-    EXPECT_EQ(parseMessage(withEmitter("\"shape\":{\"type\":\"cone\"}")),
+    EXPECT_EQ(parseMessage(withEmitter("\"shape\":{\"type\":\"torus\"}")),
               start +
-                  "69: key \"emitters[0].shape.type\": is \"cone\", must be one of \"point\", "
-                  "\"sphere\", \"box\", \"disc\"");
+                  "69: key \"emitters[0].shape.type\": is \"torus\", must be one of \"point\", "
+                  "\"line\", \"disc\", \"ring\", \"sphere\", \"box\", \"cone\", \"mesh\"");
     EXPECT_EQ(parseMessage(withEmitter("\"colour\":1")),
               start +
-                  "53: key \"emitters[0].colour\": unknown key, known are bursts, direction, "
-                  "duration, lifetime, rate, shape, speed, spread");
+                  "53: key \"emitters[0].colour\": unknown key, known are bursts, delay, "
+                  "direction, duration, inherit, lifetime, path, rate, shape, speed, spread, "
+                  "velocity");
     EXPECT_EQ(
         parseMessage(R"({"version":1,"medium":"m","emitters":[{"lifetime":0}]})"),
         start +

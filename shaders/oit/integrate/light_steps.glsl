@@ -35,8 +35,10 @@ float limitStepByLight(LightData light, vec3 origin, vec3 rayDirection, float pl
     if (light.type == kLightSpot) {
         vec3 fromLight = place * rayDirection - offset;
         float near = 1e-5 * distance;
-        own = min(own, nextConeCrossing(rayDirection, fromLight, light.direction, light.cosInner, near));
-        own = min(own, nextConeCrossing(rayDirection, fromLight, light.direction, light.cosOuter, near));
+        own = min(own,
+                  nextConeCrossing(rayDirection, fromLight, light.direction, light.cosInner, near));
+        own = min(own,
+                  nextConeCrossing(rayDirection, fromLight, light.direction, light.cosOuter, near));
     }
     return max(own, slack);
 }

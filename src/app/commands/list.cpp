@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <app/commands/list.hpp>
@@ -65,17 +66,32 @@ void listShadows() {
 }
 
 std::string formatFallback(const particles::ModuleKey& key) {
+    if (!key.choices.empty()) return key.choices[0];
     if (key.fallback.size() == 1) return fmt::format("{}", key.fallback[0]);
     return fmt::format("[{}, {}, {}]", key.fallback[0], key.fallback[1], key.fallback[2]);
 }
 
+std::string formatAllowed(const particles::ModuleKey& key) {
+    if (!key.choices.empty()) return fmt::format("{}", fmt::join(key.choices, ", "));
+    return fmt::format("{} to {}", key.lo, key.hi);
+}
+
 void listModules() {
     for (const particles::Module& module : particles::modules()) {
-        fmt::print("{:<16} {}\n", module.info.name, module.info.summary);
+        fmt::print("{:<16} {}{}\n", module.info.name, module.info.summary,
+                   module.info.isReplayable ? "" : " (not replayable)");
         for (const particles::ModuleKey& key : module.info.keys)
-            fmt::print("  {} = {} in {}..{} {}: {}\n", key.name, formatFallback(key), key.lo,
-                       key.hi, key.unit, key.summary);
+            fmt::print("  {} = {} ({}; {}): {}\n", key.name, formatFallback(key),
+                       formatAllowed(key), key.unit, key.summary);
     }
+}
+
+void listModulesAsMarkdown() {
+    fmt::print("| module | key | unit | default | allowed | |\n|---|---|---|---|---|---|\n");
+    for (const particles::Module& module : particles::modules())
+        for (const particles::ModuleKey& key : module.info.keys)
+            fmt::print("| `{}` | `{}` | {} | {} | {} | {} |\n", module.info.name, key.name,
+                       key.unit, formatFallback(key), formatAllowed(key), key.summary);
 }
 
 void listDevices() {
@@ -104,11 +120,12 @@ void listScenes() {
 }  // namespace
 
 void runList(const ListArguments& arguments, const Log&) {
-    if (arguments.markdown && arguments.what != "methods")
-        throw inputError("reading options", "--markdown", "only allowed with list methods");
+    if (arguments.markdown && arguments.what != "methods" && arguments.what != "modules")
+        throw inputError("reading options", "--markdown",
+                         "only allowed with list methods and list modules");
     if (arguments.what == "methods") arguments.markdown ? listMethodsAsMarkdown() : listMethods();
     if (arguments.what == "shadows") listShadows();
-    if (arguments.what == "modules") listModules();
+    if (arguments.what == "modules") arguments.markdown ? listModulesAsMarkdown() : listModules();
     if (arguments.what == "devices") listDevices();
     if (arguments.what == "scenes") listScenes();
 }

@@ -12,6 +12,8 @@
 #include <particles/gpu_simulation.hpp>
 #include <scene/loader.hpp>
 
+#include <optional>
+
 namespace brume::app {
 namespace {
 
@@ -38,48 +40,78 @@ bench::SimulationRow describe(const SimulateArguments& arguments) {
     return row;
 }
 
+/// Adds those of one population.
 void takeCounters(const particles::Counters& counters, bench::SimulationRow& row) {
-    row.alive = counters.alive;
-    row.born = counters.born;
-    row.died = counters.died;
-    row.rejected = counters.rejected;
+    row.alive += counters.alive;
+    row.born += counters.born;
+    row.died += counters.died;
+    row.rejected += counters.rejected;
+    row.killed += counters.killed;
 }
 
-double secondsAfter(const SimulateArguments& arguments, int frame) {
-    return frame * arguments.secondsPerFrame;
-}
-
-/// Calls advance(frame) for every frame; it returns the frame's time in ms.
+/// Calls advance(seconds) for every frame with the time at its end; it returns what it took in ms.
 template <typename Advance>
-bench::TimeSummary advanceFrames(const SimulateArguments& arguments, const Advance& advance) {
+bench::TimeSummary advanceFrames(const SimulateArguments& arguments, double startSeconds,
+                                 const Advance& advance) {
     std::vector<double> timesMs;
     Progress progress("simulating");
     for (int frame = 1; frame <= arguments.frames; ++frame) {
-        timesMs.push_back(advance(frame));
+        timesMs.push_back(advance(startSeconds + frame * arguments.secondsPerFrame));
         progress.update(static_cast<double>(frame) / arguments.frames);
     }
     return bench::summarise(timesMs);
 }
 
-bench::SimulationRow simulateOnCpu(const SimulateArguments& arguments,
-                                   const scene::Effect& effect) {
+/// The state to go on from, if one is asked for.
+class Checkpoint {
+  public:
+    Checkpoint(const SimulateArguments& arguments, const scene::Effect& effect)
+        : mPopulations(particles::compileEffect(effect)),
+          mKey{particles::fingerprintOf(mPopulations), arguments.seed, 0} {
+        if (!arguments.from.empty())
+            mStart = particles::readCheckpoint(arguments.from, mKey, mPopulations);
+    }
+
+    const std::optional<particles::SimulationState>& start() const { return mStart; }
+    double startSeconds() const {
+        return mStart ? static_cast<double>(mStart->tick) / mPopulations[0].tickRate : 0;
+    }
+    void write(const std::filesystem::path& file, const particles::SimulationState& state) const {
+        if (!file.empty()) particles::writeCheckpoint(file, mKey, state);
+    }
+
+  private:
+    std::vector<particles::CompiledEffect> mPopulations;
+    particles::CheckpointKey mKey;
+    std::optional<particles::SimulationState> mStart;
+};
+
+void takeState(const particles::SimulationState& state, bench::SimulationRow& row) {
+    row.ticks = state.tick;
+    row.hash = state.hash();
+    for (const particles::Counters& counters : state.counters) takeCounters(counters, row);
+}
+
+bench::SimulationRow simulateOnCpu(const SimulateArguments& arguments, const scene::Effect& effect,
+                                   const Checkpoint& checkpoint) {
     bench::SimulationRow row = describe(arguments);
     row.device = "CPU";
     particles::CpuSimulation simulation(effect, arguments.seed);
-    row.time = advanceFrames(arguments, [&](int frame) {
+    if (checkpoint.start()) simulation.restore(*checkpoint.start());
+    row.time = advanceFrames(arguments, checkpoint.startSeconds(), [&](double seconds) {
         const auto start = std::chrono::steady_clock::now();
-        simulation.advanceTo(secondsAfter(arguments, frame));
+        simulation.advanceTo(seconds);
         const auto end = std::chrono::steady_clock::now();
         return std::chrono::duration<double, std::milli>(end - start).count();
     });
-    row.ticks = simulation.tick();
-    row.hash = simulation.hash();
-    takeCounters(simulation.counters(), row);
+    takeState(simulation.state(), row);
+    checkpoint.write(arguments.checkpoint, simulation.state());
     return row;
 }
 
 bench::SimulationRow simulateOnDevice(const SimulateArguments& arguments,
-                                      const scene::Effect& effect, const Log& log) {
+                                      const scene::Effect& effect, const Checkpoint& checkpoint,
+                                      const Log& log) {
     const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
     bench::SimulationRow row = describe(arguments);
     row.device = device->info().name;
@@ -88,19 +120,19 @@ bench::SimulationRow simulateOnDevice(const SimulateArguments& arguments,
         gpu::Submitter submitter(*device);
         gpu::TimerPool timers(*device);
         particles::GpuSimulation simulation(*device, effect, arguments.seed);
-        row.time = advanceFrames(arguments, [&](int frame) {
+        if (checkpoint.start()) simulation.writeState(submitter, {&*checkpoint.start(), 1});
+        row.time = advanceFrames(arguments, checkpoint.startSeconds(), [&](double seconds) {
             submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
                 timers.reset(commands);
                 const std::size_t scope = timers.begin(commands, "particles.simulate");
-                simulation.recordAdvanceTo(commands, secondsAfter(arguments, frame));
+                simulation.recordAdvanceTo(commands, seconds);
                 timers.end(commands, scope);
             });
             return timers.readTotalMs();
         });
-        const particles::GpuSimulation::Snapshot state = simulation.readState(submitter);
-        row.ticks = state.tick;
-        row.hash = state.hash();
-        takeCounters(state.counters, row);
+        const particles::SimulationState state = simulation.readState(submitter);
+        takeState(state, row);
+        checkpoint.write(arguments.checkpoint, state);
     }
     checkValidation(*device, log);
     return row;
@@ -111,11 +143,14 @@ bench::SimulationRow simulateOnDevice(const SimulateArguments& arguments,
 void runSimulate(const SimulateArguments& arguments, const Log& log) {
     checkArguments(arguments);
     const scene::Effect effect = scene::loadEffect(arguments.effect, log);
-    const bench::SimulationRow row = arguments.reference ? simulateOnCpu(arguments, effect)
-                                                         : simulateOnDevice(arguments, effect, log);
-    fmt::print("{} of {:g} s on {}: alive {}, born {}, died {}, rejected {}, {:.3f} ms per frame\n",
+    const Checkpoint checkpoint(arguments, effect);
+    const bench::SimulationRow row = arguments.reference
+                                         ? simulateOnCpu(arguments, effect, checkpoint)
+                                         : simulateOnDevice(arguments, effect, checkpoint, log);
+    fmt::print("{} of {:g} s on {}: alive {}, born {}, died {}, rejected {}, not finite {}, {:.3f} ms per "
+               "frame\n",
                formatCount(static_cast<std::uint64_t>(row.frames), "frame"), row.secondsPerFrame,
-               row.device, row.alive, row.born, row.died, row.rejected, row.time.median);
+               row.device, row.alive, row.born, row.died, row.rejected, row.killed, row.time.median);
     if (arguments.hash) fmt::print("hash {:016x}\n", row.hash);
     if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(row));
 }

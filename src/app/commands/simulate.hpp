@@ -15,6 +15,8 @@ struct SimulateArguments {
     std::uint64_t seed = 0;
     bool hash = false;       ///< print the hash of the state
     bool reference = false;  ///< simulate on the CPU
+    std::filesystem::path from;        ///< a checkpoint to go on from, or empty
+    std::filesystem::path checkpoint;  ///< where to write the state, or empty
     std::filesystem::path json;
     DeviceArguments device;
 };

@@ -12,23 +12,17 @@ constexpr double kOctaveRms = 0.03956;
 
 void add(const ModuleValues& values, ModuleSums& sums) {
     shader::EffectParameters& parameters = *sums.parameters;
-    if (parameters.curlNoiseCount == shader::kMaxFieldsPerType)
-        throw inputError("setting up the modules of an effect", values.where(),
-                         fmt::format("one 'curl_noise' too many, at most {} allowed",
-                                     shader::kMaxFieldsPerType));
+    shader::CurlNoise& noise =
+        appendModule(values, "curl_noise", parameters.curlNoiseCount, parameters.curlNoise);
     const double octaves = values.number("octaves");
     // Octaves are independent, so their squares add: 1 + 1/4 + 1/16 ...
     const double squares = (1 - std::pow(0.25, octaves)) / (1 - 0.25);
-    shader::CurlNoise& noise = parameters.curlNoise[parameters.curlNoiseCount];
     noise.strength =
         static_cast<float>(values.number("strength") / (kOctaveRms * std::sqrt(squares)));
     noise.frequency = static_cast<float>(1 / values.number("scale"));
     noise.octaves = static_cast<std::uint32_t>(octaves);
-    noise.seed = shader::pcg3d(shader::uvec3(static_cast<std::uint32_t>(sums.seed),
-                                             static_cast<std::uint32_t>(sums.seed >> 32u),
-                                             parameters.curlNoiseCount))
-                     .x;
-    ++parameters.curlNoiseCount;
+    noise.seed = shader::pcg3d(shader::uvec3(parameters.curlNoiseCount, 0, 0)).x;
+    sums.noiseDrifts.push_back(values.vector("drift"));
 }
 
 }  // namespace
@@ -54,7 +48,13 @@ Module module() {
                        .fallback = {1},
                        .lo = 1,
                        .hi = 8,
-                       .isInteger = true}}},
+                       .isInteger = true},
+                      {.name = "drift",
+                       .unit = "m/s",
+                       .summary = "velocity at which the eddies move through space",
+                       .fallback = {0, 0, 0},
+                       .lo = -1e4,
+                       .hi = 1e4}}},
             add};
 }
 

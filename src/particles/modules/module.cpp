@@ -21,6 +21,10 @@ const ModuleKey* findKey(const ModuleInfo& info, const std::string& name) {
 void checkValue(const ModuleInfo& info, const ModuleKey& key, const std::vector<double>& value,
                 const std::string& where) {
     const std::string subject = fmt::format("'{}' of module '{}'", key.name, info.name);
+    if (!key.choices.empty())
+        throw inputError(kDoing, where,
+                         fmt::format("{} is a number, one of {} allowed", subject,
+                                     fmt::join(key.choices, ", ")));
     if (value.size() != key.fallback.size())
         throw inputError(kDoing, where,
                          fmt::format("{} has {} numbers, {} allowed", subject, value.size(),
@@ -34,30 +38,94 @@ void checkValue(const ModuleInfo& info, const ModuleKey& key, const std::vector<
             throw inputError(kDoing, where,
                              fmt::format("{} is {}, whole numbers allowed", subject, number));
     }
+    if (key.isDirection && value == std::vector<double>{0, 0, 0})
+        throw inputError(kDoing, where,
+                         fmt::format("{} is zero, a direction of any length allowed", subject));
+}
+
+std::uint32_t findChoice(const ModuleInfo& info, const ModuleKey& key, const std::string& word,
+                         const std::string& where) {
+    const std::string subject = fmt::format("'{}' of module '{}'", key.name, info.name);
+    if (key.choices.empty())
+        throw inputError(kDoing, where,
+                         fmt::format("{} is a word, {} allowed", subject,
+                                     key.fallback.size() == 1 ? "a number" : "an array of three"));
+    const auto found = std::find(key.choices.begin(), key.choices.end(), word);
+    if (found == key.choices.end())
+        throw inputError(kDoing, where,
+                         fmt::format("{} is '{}', one of {} allowed", subject, word,
+                                     fmt::join(key.choices, ", ")));
+    return static_cast<std::uint32_t>(found - key.choices.begin());
+}
+
+/// The place of a key's value, or that of the module.
+std::string placeOf(const scene::ModuleSettings& settings, const std::string& key) {
+    const auto found = settings.whereOf.find(key);
+    return found == settings.whereOf.end() ? settings.where : found->second;
+}
+
+const ModuleKey& requireKey(const ModuleInfo& info, const std::string& name,
+                            const std::string& where) {
+    if (const ModuleKey* key = findKey(info, name)) return *key;
+    std::vector<std::string> known;
+    for (const ModuleKey& k : info.keys) known.push_back(k.name);
+    throw inputError(kDoing, where,
+                     fmt::format("module '{}' has no key '{}', known are {}", info.name, name,
+                                 fmt::join(known, ", ")));
 }
 
 }  // namespace
 
 ModuleValues::ModuleValues(const ModuleInfo& info, const scene::ModuleSettings& settings)
     : mWhere(settings.where) {
-    for (const ModuleKey& key : info.keys) mValues[key.name] = key.fallback;
-    for (const auto& [name, value] : settings.values) {
-        const ModuleKey* key = findKey(info, name);
-        if (!key) {
-            std::vector<std::string> known;
-            for (const ModuleKey& k : info.keys) known.push_back(k.name);
-            throw inputError(kDoing, mWhere,
-                             fmt::format("module '{}' has no key '{}', known are {}", info.name,
-                                         name, fmt::join(known, ", ")));
-        }
-        checkValue(info, *key, value, mWhere);
-        mValues[name] = value;
+    for (const ModuleKey& key : info.keys) {
+        if (key.choices.empty())
+            set(info, key, key.fallback, mWhere);
+        else
+            mChoices[key.name] = 0;
     }
+    for (const auto& [name, value] : settings.values) {
+        const std::string where = placeOf(settings, name);
+        set(info, requireKey(info, name, where), value, where);
+    }
+    for (const auto& [name, word] : settings.texts) {
+        const std::string where = placeOf(settings, name);
+        mChoices[name] = findChoice(info, requireKey(info, name, where), word, where);
+    }
+}
+
+void ModuleValues::set(const ModuleInfo& info, const ModuleKey& key,
+                       const std::vector<double>& value, const std::string& where) {
+    checkValue(info, key, value, where);
+    std::vector<double>& stored = mValues[key.name];
+    stored = value;
+    if (!key.isDirection) return;
+    // Through the largest component, so that no square is lost.
+    const double largest = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
+    const dvec3 unit = glm::normalize(dvec3(value[0], value[1], value[2]) / largest);
+    stored = {unit.x, unit.y, unit.z};
 }
 
 dvec3 ModuleValues::vector(const std::string& key) const {
     const std::vector<double>& v = mValues.at(key);
     return {v[0], v[1], v[2]};
+}
+
+void checkModuleCount(const ModuleValues& values, const char* kind, std::uint32_t count) {
+    if (count < shader::kMaxModulesPerType) return;
+    throw inputError(
+        kDoing, values.where(),
+        fmt::format("one {} too many, at most {} allowed", kind, shader::kMaxModulesPerType));
+}
+
+void makeFrame(const dvec3& axis, dvec3& tangent, dvec3& bitangent) {
+    // The axis' smallest component gives the safest cross product.
+    const dvec3 a = glm::abs(axis);
+    const dvec3 helper = a.x <= a.y && a.x <= a.z ? dvec3(1, 0, 0)
+                         : a.y <= a.z             ? dvec3(0, 1, 0)
+                                                  : dvec3(0, 0, 1);
+    tangent = glm::normalize(glm::cross(helper, axis));
+    bitangent = glm::cross(axis, tangent);
 }
 
 const std::vector<Module>& modules() {
@@ -78,6 +146,10 @@ void addModules(const std::vector<scene::ModuleSettings>& settings, ModuleSums& 
         }
         found->add(ModuleValues(found->info, one), sums);
     }
+    // Rates of drag become shares of their sum.
+    for (std::uint32_t i = 0; i < sums.parameters->vortexCount; ++i)
+        if (sums.dragRate > 0)
+            sums.parameters->vortex[i].weight /= static_cast<float>(sums.dragRate);
 }
 
 }  // namespace brume::particles

@@ -14,15 +14,17 @@
 
 namespace brume::particles {
 
-/// One setting: a number or a vector of three.
+/// One setting: a number, a vector of three, or one word of several.
 struct ModuleKey {
     std::string name;
-    std::string unit;  ///< "1" for pure numbers
+    std::string unit;  ///< "1" for pure numbers, "word" for words
     std::string summary;
     std::vector<double> fallback;  ///< size 1 or 3; all components lie in [lo, hi]
     double lo = 0;
     double hi = 0;
     bool isInteger = false;
+    bool isDirection = false;           ///< a vector of any length but zero; made a unit vector
+    std::vector<std::string> choices;   ///< the words allowed, the default first; else empty
 };
 
 struct ModuleInfo {
@@ -41,10 +43,16 @@ class ModuleValues {
 
     double number(const std::string& key) const { return mValues.at(key)[0]; }
     dvec3 vector(const std::string& key) const;
+    /// Position among the key's choices.
+    std::uint32_t choice(const std::string& key) const { return mChoices.at(key); }
     const std::string& where() const { return mWhere; }
 
   private:
+    void set(const ModuleInfo& info, const ModuleKey& key, const std::vector<double>& value,
+             const std::string& where);
+
     std::map<std::string, std::vector<double>> mValues;
+    std::map<std::string, std::uint32_t> mChoices;
     std::string mWhere;
 };
 
@@ -54,9 +62,24 @@ struct ModuleSums {
     dvec3 acceleration{0};                           ///< m/s^2
     double dragRate = 0;                             ///< 1/s
     dvec3 dragRateTimesWind{0};                      ///< m/s^2
-    std::uint64_t seed = 0;                          ///< of the effect, for fields
+    std::vector<dvec3> noiseDrifts;                  ///< m/s, of each curl_noise
     shader::EffectParameters* parameters = nullptr;  ///< takes the fields
 };
+
+/// Throws an input Error if `count` modules are all that an effect can have of this kind.
+void checkModuleCount(const ModuleValues& values, const char* kind, std::uint32_t count);
+
+/// The next free element of one of the arrays of EffectParameters. Throws an input Error if the
+/// effect has too many modules of this kind.
+template <typename T>
+T& appendModule(const ModuleValues& values, const char* kind, std::uint32_t& count,
+                T (&array)[shader::kMaxModulesPerType]) {
+    checkModuleCount(values, kind, count);
+    return array[count++];
+}
+
+/// Any two unit vectors orthogonal to the unit vector `axis` and to each other.
+void makeFrame(const dvec3& axis, dvec3& tangent, dvec3& bitangent);
 
 /// A module as the registry knows it. `add` may throw an input Error at values.where().
 struct Module {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pipelines of a population, compiled for the modules that its effect uses.
+#include <particles/gpu_population.hpp>
+#include <spv/particles/appearance.comp.hpp>
+#include <spv/particles/child_batches.comp.hpp>
+#include <spv/particles/child_offsets.comp.hpp>
+#include <spv/particles/count.comp.hpp>
+#include <spv/particles/offsets.comp.hpp>
+#include <spv/particles/step.comp.hpp>
+#include <spv/particles/totals.comp.hpp>
+
+namespace brume::particles {
+
+std::vector<std::uint32_t> GpuPopulation::specialization() const {
+    std::vector<std::uint32_t> values(33, 0);
+    values[0] = mWorkgroupSize;
+#define BRUME_SPECIALIZE(Type, member, constant) \
+    values[constant] = mEffect.parameters.member##Count;
+    BRUME_MODULE_TYPES(BRUME_SPECIALIZE)
+#undef BRUME_SPECIALIZE
+    values[32] = mEffect.subEmitterCount;
+    return values;
+}
+
+void GpuPopulation::makePipelines(gpu::Device& device) {
+    using namespace shader;
+    const auto make = [&](const char* name, std::span<const std::uint32_t> spirv,
+                          std::initializer_list<std::uint32_t> bindings, std::size_t pushBytes) {
+        gpu::ComputePipelineDesc desc;
+        desc.name = name;
+        desc.spirv = spirv;
+        for (const std::uint32_t number : bindings) desc.bindings.push_back({.number = number});
+        desc.pushConstantBytes = static_cast<std::uint32_t>(pushBytes);
+        desc.specialization = specialization();
+        return gpu::ComputePipeline(device, desc);
+    };
+    constexpr std::size_t kTickBytes = sizeof(TickPush), kChildBytes = sizeof(ChildPush);
+    mCount = make("particles.count", spv::particles_count_comp,
+                  {kBindingEffect, kBindingLives, kBindingChunks, kBindingTotals, kBindingEmitters,
+                   kBindingBatches, kBindingTicks, kBindingInstances, kBindingTriangles},
+                  kTickBytes);
+    mOffsets = make("particles.offsets", spv::particles_offsets_comp,
+                    {kBindingChunks, kBindingGroups, kBindingTicks}, kTickBytes);
+    mTotalsPass = make("particles.totals", spv::particles_totals_comp,
+                       {kBindingGroups, kBindingTotals, kBindingTicks}, kTickBytes);
+    mStep = make("particles.step", spv::particles_step_comp,
+                 {kBindingEffect,        kBindingPositions,     kBindingVelocities,
+                  kBindingLives,         kBindingBirthIndices,  kBindingNewPositions,
+                  kBindingNewVelocities, kBindingNewLives,      kBindingNewBirthIndices,
+                  kBindingChunks,        kBindingGroups,        kBindingTotals,
+                  kBindingEmitters,      kBindingBatches,       kBindingTicks,
+                  kBindingInstances,     kBindingTriangles,     kBindingRecords,
+                  kBindingRecordCounts},
+                 kTickBytes);
+    mAppearance = make("particles.appearance", spv::particles_appearance_comp,
+                       {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,
+                        kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres},
+                       sizeof(AppearancePush));
+    if (mEffect.subEmitterCount == 0) return;
+    mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,
+                         {kBindingTicks, kBindingRecordCounts, kBindingChildTotals}, kChildBytes);
+    mChildBatches = make("particles.child_batches", spv::particles_child_batches_comp,
+                         {kBindingTicks, kBindingRecords, kBindingRecordCounts,
+                          kBindingChildTotals, kBindingChildBatches},
+                         kChildBytes);
+}
+
+}  // namespace brume::particles

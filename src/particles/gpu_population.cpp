@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <core/assert.hpp>
+#include <core/error.hpp>
+#include <particles/gpu_population.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace brume::particles {
+namespace {
+
+std::uint32_t divideUp(std::uint64_t a, std::uint64_t b) {
+    return static_cast<std::uint32_t>((a + b - 1) / b);
+}
+
+/// Loop iterations of one particle in the step pass, estimated from above: lavapipe silently stops
+/// an invocation at 65 535 of them.
+std::uint32_t loopsPerParticle(const CompiledEffect& effect) {
+    const shader::EffectParameters& p = effect.parameters;
+    std::uint32_t loops = 48;  // births: random numbers, search of batch and triangle
+    for (std::uint32_t i = 0; i < p.curlNoiseCount; ++i) loops += 2 + p.curlNoise[i].octaves;
+    loops += 16 * (p.attractorCount + p.vortexCount + 2 * p.quadraticDragCount);
+    const std::uint32_t colliders = p.planeColliderCount + p.sphereColliderCount +
+                                    p.boxColliderCount + p.capsuleColliderCount;
+    loops += 5 * 30 * colliders + (colliders ? 60 : 0);
+    loops *= effect.subEmitterCount ? 2 : 1;  // dying particles are followed too
+    return loops + 40 * effect.subEmitterCount;
+}
+
+/// Software devices like long serial runs as long as there are enough for their threads and lanes,
+/// GPUs like many threads; chosen by us from measurements.
+std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& effect,
+                              std::uint32_t instances, std::uint32_t wanted) {
+    constexpr std::uint32_t kMaxLoops = 45000, kMaxChunks = 32768;
+    const std::uint64_t all = std::uint64_t{effect.capacity} * instances;
+    const auto usual = static_cast<std::uint32_t>(
+        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 16, 512) : 16);
+    const std::uint32_t most = std::max(1u, kMaxLoops / loopsPerParticle(effect));
+    // The pass over the chunks of an instance is serial in two places.
+    const std::uint32_t least = divideUp(effect.capacity, kMaxChunks);
+    return std::max(std::min(wanted ? wanted : usual, most), least);
+}
+
+/// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects.
+constexpr std::uint32_t kTicksPerPart = 128;
+
+/// Writes an array by way of the command buffer, which takes 64 KiB at a time.
+template <typename T>
+void updateArray(gpu::Commands& commands, const gpu::Buffer& buffer, const std::vector<T>& values) {
+    constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
+    for (std::size_t first = 0; first < values.size(); first += kPerUpdate) {
+        const std::size_t count = std::min(kPerUpdate, values.size() - first);
+        commands.updateBuffer(buffer, &values[first], count * sizeof(T), first * sizeof(T));
+    }
+}
+
+template <typename T>
+gpu::Buffer makeFilledBuffer(gpu::Device& device, const std::string& name,
+                             std::span<const T> values) {
+    gpu::Buffer buffer(device, {.name = name,
+                                .bytes = std::max<std::uint64_t>(values.size_bytes(), 4),
+                                .memory = gpu::MemoryKind::Upload});
+    if (!values.empty()) std::memcpy(buffer.mapped(), values.data(), values.size_bytes());
+    return buffer;
+}
+
+gpu::Buffer makeBuffer(gpu::Device& device, const std::string& name, std::uint64_t bytes) {
+    return gpu::Buffer(device, {.name = name, .bytes = std::max<std::uint64_t>(bytes, 4)});
+}
+
+}  // namespace
+
+GpuPopulation::GpuPopulation(gpu::Device& device, CompiledEffect effect, std::uint32_t population,
+                             std::span<const EffectInstance> instances,
+                             const GpuSimulationOptions& options, const GpuPopulation* parent)
+    : mEffect(std::move(effect)),
+      mAliveBound(mEffect.aliveBound),
+      mInstanceCount(static_cast<std::uint32_t>(instances.size())),
+      mWorkgroupSize(options.workgroupSize),
+      mChunkSize(chooseChunkSize(device, mEffect, mInstanceCount, options.chunkSize)) {
+    BRUME_ASSERT_LT(0u, mInstanceCount);
+    std::vector<shader::InstanceParameters> parameters;
+    for (const EffectInstance& one : instances)
+        parameters.push_back(instanceParameters(one.seed, one.instance, population));
+    mInstances = makeFilledBuffer<shader::InstanceParameters>(device, "particles.instances",
+                                                              parameters);
+    mBatchStride = parent ? static_cast<std::uint32_t>(parent->maxRecords()) : 0;
+    makeBuffers(device);
+    makePipelines(device);
+    restart(0);
+}
+
+std::uint64_t GpuPopulation::maxChunks() const {
+    // Existing particles and births each have up to as many as the capacity takes.
+    return 2 * std::uint64_t{divideUp(mEffect.capacity, mChunkSize)};
+}
+
+void GpuPopulation::makeBuffers(gpu::Device& device) {
+    const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
+    const std::uint64_t chunks = maxChunks() * mInstanceCount;
+    const std::uint64_t groups =
+        (2 + divideUp(maxChunks(), shader::kChunksPerGroup)) * std::uint64_t{mInstanceCount};
+    const std::uint64_t records = mEffect.subEmitterCount * maxRecords() * mInstanceCount;
+    constexpr std::uint32_t kUsualBatches = 2048;
+    mBatchCapacity = mEffect.isChild()
+                         ? mBatchStride * mInstanceCount
+                         : std::max(kUsualBatches, mEffect.schedule.maxBatchesPerTick());
+
+    const std::uint64_t largest =
+        std::max({all * sizeof(vec3), records * sizeof(shader::BirthBatch),
+                  mBatchCapacity * std::uint64_t{sizeof(shader::BirthBatch)}});
+    if (largest > device.limits().maxStorageBufferRange)
+        throw inputError(
+            "setting up an effect", "",
+            fmt::format("'capacity' {} of {} instances wants an array of {} bytes, at most {} "
+                        "allowed on this device",
+                        mEffect.capacity, mInstanceCount, largest,
+                        device.limits().maxStorageBufferRange));
+    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[4]);
+    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[4]);
+    mTicks = makeBuffer(device, "particles.ticks", kTicksPerPart * sizeof(shader::Tick));
+    mChunks = makeBuffer(device, "particles.chunks", chunks * 4);
+    mGroups = makeBuffer(device, "particles.groups", groups * 4);
+    mTotals =
+        makeBuffer(device, "particles.totals", mInstanceCount * sizeof(shader::TickTotals));
+    mRecords = makeBuffer(device, "particles.records", records * sizeof(shader::BirthBatch));
+    mRecordCounts = makeBuffer(device, "particles.record_counts",
+                               mEffect.subEmitterCount * chunks * sizeof(shader::RecordCount));
+    mBatches = makeBuffer(device, "particles.batches", mBatchCapacity * sizeof(shader::BirthBatch));
+    mParameters = makeFilledBuffer<shader::EffectParameters>(device, "particles.parameters",
+                                                             {&mEffect.parameters, 1});
+    mEmitters =
+        makeFilledBuffer<shader::EmitterParameters>(device, "particles.emitters", mEffect.emitters);
+    mTriangles =
+        makeFilledBuffer<shader::EmitterTriangle>(device, "particles.triangles", mEffect.triangles);
+}
+
+std::array<std::uint64_t, 5> GpuPopulation::stateOffsets() const {
+    constexpr std::array<std::uint64_t, 4> kSizes = {
+        sizeof(vec3), sizeof(vec3), sizeof(shader::ParticleLife), sizeof(std::uint32_t)};
+    std::array<std::uint64_t, 5> offsets{};
+    // Bindings begin at multiples of 256 bytes.
+    const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
+    for (std::size_t i = 0; i < kSizes.size(); ++i)
+        offsets[i + 1] = offsets[i] + (kSizes[i] * all + 255) / 256 * 256;
+    return offsets;
+}
+
+gpu::BufferRange GpuPopulation::stateRange(std::uint32_t state, std::uint32_t field) const {
+    const auto offsets = stateOffsets();
+    return {&mStates[state], offsets[field], offsets[field + 1] - offsets[field]};
+}
+
+const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
+    switch (binding) {
+        case shader::kBindingEffect: return &mParameters;
+        case shader::kBindingChunks: return &mChunks;
+        case shader::kBindingGroups: return &mGroups;
+        case shader::kBindingTotals: return &mTotals;
+        case shader::kBindingEmitters: return &mEmitters;
+        case shader::kBindingBatches: return &mBatches;
+        case shader::kBindingTicks: return &mTicks;
+        case shader::kBindingInstances: return &mInstances;
+        case shader::kBindingTriangles: return &mTriangles;
+        case shader::kBindingRecords: return &mRecords;
+        case shader::kBindingRecordCounts: return &mRecordCounts;
+        default: return nullptr;
+    }
+}
+
+void GpuPopulation::bindAll(gpu::Commands& commands, const gpu::ComputePipeline& pipeline) const {
+    commands.bindCompute(pipeline);
+    for (const gpu::Binding& binding : pipeline.bindings()) {
+        const std::uint32_t number = binding.number;
+        if (const gpu::Buffer* buffer = bufferOf(number))
+            commands.bind(number, *buffer);
+        else if (number >= shader::kBindingPositions && number <= shader::kBindingBirthIndices)
+            commands.bind(number, stateRange(mCurrent, number - shader::kBindingPositions));
+        else if (number >= shader::kBindingNewPositions &&
+                 number <= shader::kBindingNewBirthIndices)
+            commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewPositions));
+    }
+}
+
+std::uint64_t GpuPopulation::bytes() const {
+    std::uint64_t sum = 0;
+    for (const gpu::Buffer* buffer :
+         {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles, &mBatches,
+          &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts})
+        sum += buffer->bytes();
+    return sum;
+}
+
+void GpuPopulation::restart(std::uint64_t tick) {
+    mAliveBound = mEffect.aliveBound;
+    if (mEffect.isChild()) {
+        // Its births are known to the GPU alone.
+        mAliveBound.addTick(mEffect.capacity);
+        return;
+    }
+    if (tick > 0 && mAliveBound.windowTicks() == 0) {
+        const std::uint64_t births = mEffect.schedule.birthsBefore(tick);
+        mAliveBound.addTick(
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(births, mEffect.capacity)));
+        return;
+    }
+    for (std::uint64_t t = tick - std::min<std::uint64_t>(tick, mAliveBound.windowTicks());
+         t < tick; ++t)
+        mAliveBound.addTick(mEffect.schedule.at(t).count);
+}
+
+TickPart GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
+    TickPart part;
+    maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
+    while (part.ticks.size() < maxTicks &&
+           part.batches.size() + mEffect.schedule.maxBatchesPerTick() <= mBatchCapacity) {
+        const std::uint64_t tick = firstTick + part.ticks.size();
+        const TickBirths births =
+            mEffect.isChild() ? TickBirths{} : mEffect.schedule.at(tick);
+        part.ticks.push_back(
+            makeTick(tick, births, static_cast<std::uint32_t>(part.batches.size())));
+        part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());
+    }
+    return part;
+}
+
+shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& births,
+                                     std::uint32_t firstBatch) {
+    shader::Tick tick{};
+    const std::uint32_t mostBirths = mEffect.isChild() ? mEffect.capacity : births.count;
+    const std::uint32_t birthChunks = divideUp(mostBirths, mChunkSize);
+    tick.capacity = mEffect.capacity;
+    tick.instances = mInstanceCount;
+    tick.index = static_cast<std::uint32_t>(index);
+    tick.chunkSize = mChunkSize;
+    tick.survivorChunks = divideUp(slotCount(), mChunkSize);
+    tick.chunks = tick.survivorChunks + birthChunks;
+    tick.groups = divideUp(tick.survivorChunks, shader::kChunksPerGroup) +
+                  divideUp(birthChunks, shader::kChunksPerGroup);
+    tick.firstBatch = firstBatch;
+    tick.batchCount = static_cast<std::uint32_t>(births.batches.size());
+    tick.birthCount = births.count;
+    tick.overflow = births.overflow;
+    if (!mEffect.isChild()) mAliveBound.addTick(births.count);
+    tick.slots = slotCount();
+    tick.isChild = mEffect.isChild();
+    tick.batchStride = mBatchStride;
+    tick.fields = tickFields(mEffect, index);
+    return tick;
+}
+
+void GpuPopulation::recordClear(gpu::Commands& commands) const { commands.fillBuffer(mTotals, 0); }
+
+void GpuPopulation::recordUpload(gpu::Commands& commands, const TickPart& part) const {
+    updateArray(commands, mTicks, part.ticks);
+    updateArray(commands, mBatches, part.batches);
+}
+
+void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,
+                               std::uint32_t slot) {
+    const auto dispatch = [&](const gpu::ComputePipeline& pipeline, std::uint64_t threads) {
+        if (threads == 0) return;
+        bindAll(commands, pipeline);
+        commands.pushConstants(shader::TickPush{slot});
+        commands.dispatchThreads(threads, mWorkgroupSize);
+        commands.computeBarrier();
+    };
+    dispatch(mCount, std::uint64_t{tick.chunks} * mInstanceCount);
+    dispatch(mOffsets, std::uint64_t{tick.groups} * mInstanceCount);
+    dispatch(mTotalsPass, mInstanceCount);
+    dispatch(mStep, std::uint64_t{tick.chunks} * mInstanceCount);
+    mCurrent = 1 - mCurrent;
+}
+
+void GpuPopulation::recordChildren(gpu::Commands& commands, const shader::Tick& tick,
+                                   std::uint32_t slot, GpuPopulation& child) const {
+    const auto dispatch = [&](const gpu::ComputePipeline& pipeline, std::uint64_t threads) {
+        commands.bindCompute(pipeline);
+        commands.bind(shader::kBindingTicks, mTicks);
+        commands.bind(shader::kBindingRecordCounts, mRecordCounts);
+        commands.bind(shader::kBindingChildTotals, child.mTotals);
+        if (&pipeline == &mChildBatches) {
+            commands.bind(shader::kBindingRecords, mRecords);
+            commands.bind(shader::kBindingChildBatches, child.mBatches);
+        }
+        commands.pushConstants(shader::ChildPush{slot, child.effect().subEmitter,
+                                                 child.effect().capacity, child.batchStride()});
+        commands.dispatchThreads(threads, mWorkgroupSize);
+        commands.computeBarrier();
+    };
+    dispatch(mChildOffsets, mInstanceCount);
+    dispatch(mChildBatches, std::uint64_t{tick.chunks} * mInstanceCount);
+}
+
+void GpuPopulation::recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
+                                     const shader::AppearancePush& push) const {
+    bindAll(commands, mAppearance);
+    commands.bind(shader::kBindingParticleSpheres, spheres);
+    commands.pushConstants(push);
+    commands.dispatchThreads(slotCount(), mWorkgroupSize);
+    commands.computeBarrier();
+}
+
+std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
+                                                   std::uint32_t instance,
+                                                   Counters& counters) const {
+    submitter.read(mTotals, &counters, sizeof counters, instance * sizeof(shader::TickTotals));
+    std::vector<Particle> particles(counters.alive);
+    if (particles.empty()) return particles;
+    const gpu::Buffer& state = mStates[mCurrent];
+    const auto offsets = stateOffsets();
+    const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
+    const auto read = [&]<typename T>(std::size_t field, T) {
+        return submitter.readBuffer<T>(state, particles.size(), offsets[field] + first * sizeof(T));
+    };
+    const auto positions = read(0, vec3());
+    const auto velocities = read(1, vec3());
+    const auto lives = read(2, shader::ParticleLife());
+    const auto indices = read(3, std::uint32_t());
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        particles[i] = {positions[i], velocities[i], lives[i], indices[i]};
+    return particles;
+}
+
+void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t instance,
+                                   std::span<const Particle> particles, const Counters& counters) {
+    BRUME_ASSERT_LE(particles.size(), mEffect.capacity);
+    const auto offsets = stateOffsets();
+    const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
+    std::vector<vec3> positions, velocities;
+    std::vector<shader::ParticleLife> lives;
+    std::vector<std::uint32_t> indices;
+    for (const Particle& p : particles) {
+        positions.push_back(p.position);
+        velocities.push_back(p.velocity);
+        lives.push_back(p.life);
+        indices.push_back(p.birthIndex);
+    }
+    submitter.submitAndWait("particles.restore", [&](gpu::Commands& commands) {
+        const auto write = [&]<typename T>(std::size_t field, const std::vector<T>& values) {
+            constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
+            for (std::size_t i = 0; i < values.size(); i += kPerUpdate)
+                commands.updateBuffer(mStates[mCurrent], &values[i],
+                                      std::min(kPerUpdate, values.size() - i) * sizeof(T),
+                                      offsets[field] + (first + i) * sizeof(T));
+        };
+        write(0, positions);
+        write(1, velocities);
+        write(2, lives);
+        write(3, indices);
+        shader::TickTotals totals{};
+        totals.counters = counters;
+        totals.slots = slotCount();
+        commands.updateBuffer(mTotals, &totals, sizeof totals, instance * sizeof totals);
+        commands.computeTransferBarrier();
+    });
+}
+
+}  // namespace brume::particles

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The particles of one effect on the GPU, of all its instances: buffers, pipelines and the passes
+// of a tick. Part of GpuSimulation.
+#pragma once
+
+#include <shaders/particles/passes.h>
+
+#include <array>
+#include <gpu/commands.hpp>
+#include <gpu/submitter.hpp>
+#include <particles/compiled_effect.hpp>
+
+namespace brume::particles {
+
+/// How the work is cut; the particles do not depend on it.
+struct GpuSimulationOptions {
+    std::uint32_t workgroupSize = 64;
+    std::uint32_t chunkSize = 0;  ///< particles per invocation; 0: what suits the device. Never
+                                  ///< more than what a software device finishes
+};
+
+/// Which instance of an effect: see instanceParameters().
+struct EffectInstance {
+    std::uint64_t seed = 0;
+    std::uint32_t instance = 0;
+};
+
+/// Ticks that are recorded together, because their parameters are uploaded together.
+struct TickPart {
+    std::vector<shader::Tick> ticks;
+    std::vector<shader::BirthBatch> batches;
+};
+
+class GpuPopulation {
+  public:
+    GpuPopulation(gpu::Device& device, CompiledEffect effect, std::uint32_t population,
+                  std::span<const EffectInstance> instances, const GpuSimulationOptions& options,
+                  const GpuPopulation* parent);
+
+    const CompiledEffect& effect() const { return mEffect; }
+    std::uint32_t slotCount() const { return mAliveBound.value(); }  ///< of one instance
+    std::uint32_t instanceCount() const { return mInstanceCount; }
+    std::uint64_t bytes() const;
+
+    /// Starts anew at `tick` with nothing alive; the bound on what is follows the schedule.
+    void restart(std::uint64_t tick);
+    /// The next ticks, at most `maxTicks`, as many as are uploaded at once.
+    TickPart schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks);
+
+    void recordClear(gpu::Commands& commands) const;
+    void recordUpload(gpu::Commands& commands, const TickPart& part) const;
+    void recordTick(gpu::Commands& commands, const shader::Tick& tick, std::uint32_t slot);
+    /// Makes what the tick's step has listed the births of the child's tick.
+    void recordChildren(gpu::Commands& commands, const shader::Tick& tick, std::uint32_t slot,
+                        GpuPopulation& child) const;
+    void recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
+                          const shader::AppearancePush& push) const;
+
+    std::vector<Particle> readParticles(gpu::Submitter& submitter, std::uint32_t instance,
+                                        Counters& counters) const;
+    /// Replaces the state of an instance; at most the capacity.
+    void writeParticles(gpu::Submitter& submitter, std::uint32_t instance,
+                        std::span<const Particle> particles, const Counters& counters);
+
+  private:
+    void makeBuffers(gpu::Device& device);
+    void makePipelines(gpu::Device& device);
+    std::vector<std::uint32_t> specialization() const;
+    shader::Tick makeTick(std::uint64_t tick, const TickBirths& births, std::uint32_t firstBatch);
+    /// Where the arrays of a state begin: positions, velocities, lives, birth indices, end.
+    std::array<std::uint64_t, 5> stateOffsets() const;
+    gpu::BufferRange stateRange(std::uint32_t state, std::uint32_t field) const;
+    const gpu::Buffer* bufferOf(std::uint32_t binding) const;
+    void bindAll(gpu::Commands& commands, const gpu::ComputePipeline& pipeline) const;
+    std::uint64_t maxChunks() const;  // of one instance
+    /// Batches of one sub-emitter and instance in one tick.
+    std::uint64_t maxRecords() const { return maxChunks() * mChunkSize; }
+    std::uint32_t batchStride() const { return mBatchStride; }
+
+    CompiledEffect mEffect;
+    AliveBound mAliveBound;
+    std::uint32_t mInstanceCount;
+    std::uint32_t mWorkgroupSize;
+    std::uint32_t mChunkSize;
+    std::uint32_t mBatchCapacity = 0;
+    std::uint32_t mBatchStride = 0;  // of a child: batches of one instance
+    std::uint32_t mCurrent = 0;      // which of the states is the newest
+
+    gpu::Buffer mStates[2];
+    gpu::Buffer mParameters, mEmitters, mInstances, mTriangles;
+    gpu::Buffer mBatches, mTicks;
+    gpu::Buffer mChunks, mGroups, mTotals;
+    gpu::Buffer mRecords, mRecordCounts;
+    gpu::ComputePipeline mCount, mOffsets, mTotalsPass, mStep, mAppearance;
+    gpu::ComputePipeline mChildOffsets, mChildBatches;
+};
+
+}  // namespace brume::particles
