@@ -109,7 +109,7 @@ TEST(Effect_Errors, NewerFaults_AreNamedAtTheirPlaces) {
     EXPECT_EQ(parseMessage(withEmitter(
                   "\"shape\":{\"type\":\"disc\",\"radius\":1,\"innerRadius\":2}")),
               start +
-                  "97: key \"emitters[0].shape.innerRadius\": is above 'radius', at most that is "
+                  "101: key \"emitters[0].shape.innerRadius\": is above 'radius', at most that is "
                   "allowed");
     EXPECT_NE(parseMessage(withEmitter(
                                "\"shape\":{\"type\":\"mesh\",\"file\":\"absent.glb\"}"))
@@ -140,7 +140,7 @@ TEST(Effect_SubEmitters, Files_AreFollowedAndCyclesNamed) {
 
     write("c.json", R"({"on":"birth","effect":"a.json"})");
     const std::string message = messageOf([&] { loadEffect(folder / "a.json", Log()); });
-    EXPECT_NE(message.find("c.json:2:31: key \"subEmitters[0].effect\": leads back to an effect"),
+    EXPECT_NE(message.find("c.json:2:39: key \"subEmitters[0].effect\": leads back to an effect"),
               std::string::npos)
         << message;
     write("c.json", R"({"on":"way","effect":"b.json","rate":1,"count":3})");
