@@ -3,11 +3,11 @@
 // a pass that counts and a pass that stores must decide alike.
 #ifndef BRUME_COMMON_INTERSECT_GLSL
 #define BRUME_COMMON_INTERSECT_GLSL
-#include "real.glsl"
 
-// Whether a finer ray than this one may hit: true for every hit, and for what rounding may have
-// made a miss. `t`: as of intersectSphere(); where that misses, the middle of the finer chord.
-bool mayHitSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
+// Begin (not before the ray's) and end of the chord in a sphere, and the square of half its length;
+// where that is not above 0, the ray misses, and both are the place where it comes nearest.
+// Perpendicular form: the textbook b^2 - c loses most hits of a small sphere far away.
+float findChord(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
     precise vec3 offset = center - origin;
     precise float middle = dot(offset, direction);
     precise vec3 perpendicular = offset - middle * direction;
@@ -15,22 +15,22 @@ bool mayHitSphere(vec3 origin, vec3 direction, vec3 center, float radius, out ve
     precise float h = sqrt(max(h2, 0.0));
     precise float enter = max(middle - h, 0.0), leave = middle + h;
     t = vec2(enter, leave);
-    precise float slack = 1e-6 * radius * (radius + abs(middle));
-    precise float end = leave + 2e-6 * abs(middle);
-    return h2 + slack > 0.0 && end > enter;
+    return h2;
 }
 
-// False where the ray misses; tangent within rounding is a miss. Perpendicular form: the textbook
-// b^2 - c loses most hits of a small sphere far away.
+// False where the ray misses; tangent within rounding is a miss.
 bool intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
-    precise vec3 offset = center - origin;
-    precise float middle = dot(offset, direction);
-    precise vec3 perpendicular = offset - middle * direction;
-    precise float h2 = radius * radius - dot(perpendicular, perpendicular);
-    precise float h = sqrt(max(h2, 0.0));
-    precise float enter = max(middle - h, 0.0), leave = middle + h;
-    t = vec2(enter, leave);
-    return h2 > 0.0 && leave > enter;
+    return findChord(origin, direction, center, radius, t) > 0.0 && t.y > t.x;
+}
+
+// Whether a finer ray than this one may hit: true for every hit, and for what rounding may have
+// made a miss.
+bool mayHitSphere(vec3 origin, vec3 direction, vec3 center, float radius, out vec2 t) {
+    float h2 = findChord(origin, direction, center, radius, t);
+    precise vec3 offset = abs(center - origin);
+    precise float reach = offset.x + offset.y + offset.z;
+    precise float slack = 1e-6 * radius * (radius + reach), end = t.y + 2e-6 * reach;
+    return h2 + slack > 0.0 && end > t.x;
 }
 
 // As mayHitSphere().

@@ -35,6 +35,7 @@ struct MaterialData {
     vec3 scattering;    // solid, 1/m
     float collimation;  // thin: 1 keeps the background sharp
     float ior;          // thin and solid
+    float roughness;    // of glass that mirrors; < 0: it does not
 };
 
 // Own bindings of every pass that draws meshes.
@@ -44,7 +45,11 @@ BRUME_CONST uint kBindingMesh = 10u;      // MeshData of the draw, a uniform blo
 BRUME_CONST uint kBindingMaterial = 11u;  // MaterialData of the draw, a uniform block
 BRUME_CONST uint kBindingColorTexture = 12u;
 BRUME_CONST uint kBindingEmissionTexture = 13u;
+BRUME_CONST uint kBindingEnvironment = 15u;
 BRUME_CONST uint kBindingTriangles = 14u;  // uint[pixels]: sums of triangleHash()
+
+// Specialization constant of everything that shades surfaces: does any of them mirror?
+BRUME_CONST uint kConstantGlossy = 65u;
 
 // Bytes from one MeshData or MaterialData to the next: uniform blocks may start at multiples of it
 // on every device.
@@ -60,6 +65,6 @@ BRUME_STRUCTS_END
 static_assert(sizeof(brume::shader::VertexData) == 32);
 static_assert(sizeof(brume::shader::MeshData) == 140);
 static_assert(offsetof(brume::shader::MeshData, firstVertex) == 132);
-static_assert(sizeof(brume::shader::MaterialData) == 92);
+static_assert(sizeof(brume::shader::MaterialData) == 96);
 #endif
 #endif

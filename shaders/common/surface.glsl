@@ -3,6 +3,8 @@
 #ifndef BRUME_COMMON_SURFACE_GLSL
 #define BRUME_COMMON_SURFACE_GLSL
 #include "camera.glsl"
+#include "environment.glsl"
+#include "glass.glsl"
 #include "lighting.glsl"
 #include "mesh.h"
 
@@ -15,6 +17,8 @@ layout(location = 4) flat in vec4 planeLo;
 layout(binding = kBindingMaterial, scalar) uniform MaterialBlock { MaterialData material; };
 layout(binding = kBindingColorTexture) uniform sampler2D colorTexture;
 layout(binding = kBindingEmissionTexture) uniform sampler2D emissionTexture;
+layout(binding = kBindingEnvironment) uniform sampler2D environmentMap;
+layout(constant_id = kConstantGlossy) const bool kGlossy = true;
 
 struct SurfacePoint {
     MaterialData material;
@@ -55,6 +59,48 @@ vec3 emittedRadiance(SurfacePoint point) {
 vec3 sentRadiance(SurfacePoint point, vec3 albedo) {
     return albedo * point.color.rgb * diffuseRadiance(point.position, point.normal) +
            emittedRadiance(point);
+}
+
+// What a point of glass mirrors, and the share of light that this leaves for everything else.
+struct Gloss {
+    vec3 radiance;
+    float rest;
+};
+
+Gloss findGloss(SurfacePoint point) {
+    if (!kGlossy || point.material.roughness < 0.0) return Gloss(vec3(0), 1.0);
+    bool isPane = point.material.type == kMaterialThin;
+    vec3 direction = makeRay(gl_FragCoord.xy).direction;
+    float cosine = max(-dot(point.normal, direction), 0.0);
+    float share = glassReflectance(cosine, point.material.ior, isPane);
+    Gloss gloss;
+    gloss.rest = 1.0 - share;
+    gloss.radiance = share * environmentRadiance(environmentMap,
+                                                 direction + 2.0 * cosine * point.normal);
+    // Lights do not reach the inner side of a solid.
+    for (uint i = 0u; i < frame.lightCount && (isPane || point.isFront); ++i) {
+        vec3 travel;
+        vec3 lit = point.position + point.normal * shadowOffset(i, point.position);
+        vec3 irradiance = lightIrradiance(lights[i], i, lit, travel);
+        gloss.radiance += irradiance * highlight(point.normal, -direction, -travel,
+                                                 point.material.ior, point.material.roughness,
+                                                 isPane);
+    }
+    return gloss;
+}
+
+// L <- coverage (radiance + transmission L) + (1 - coverage) L.
+struct ThinResponse {
+    vec3 radiance;
+    vec3 transmission;
+    float coverage;
+};
+
+ThinResponse findThinResponse(SurfacePoint point) {
+    Gloss gloss = findGloss(point);
+    return ThinResponse(sentRadiance(point, gloss.rest * point.material.reflected) + gloss.radiance,
+                        gloss.rest * point.material.transmission * point.color.rgb,
+                        point.material.coverage * point.color.a);
 }
 
 #endif

@@ -9,7 +9,7 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 20> kScenes = {{
+constexpr std::array<SceneInfo, 21> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -20,6 +20,7 @@ constexpr std::array<SceneInfo, 20> kScenes = {{
     {"spheres_100k_4", "100 000 spheres of 4 pixels radius"},
     {"spheres_1m_4", "1 000 000 spheres of 4 pixels radius"},
     {"mixed_10k_15", "10 000 spheres of 15 pixels radius, of two media that mix where they overlap"},
+    {"mixed_10k_64", "10 000 spheres of 64 pixels radius, likewise"},
     {"intervals_8gib", "1 170 spheres that each cover the screen: 8 GiB of list entries"},
     {"shadow_panes", "three coloured panes across a sun, for shadow stores"},
     {"shadow_discs", "400 soft coloured discs across a sun, for shadow stores"},
@@ -76,6 +77,7 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "spheres_100k_4") return {{std::string(name), makeSpheres(100'000, 4)}};
     if (name == "spheres_1m_4") return {{std::string(name), makeSpheres(1'000'000, 4)}};
     if (name == "mixed_10k_15") return {{std::string(name), makeSpheres(10'000, 15, 2)}};
+    if (name == "mixed_10k_64") return {{std::string(name), makeSpheres(10'000, 64, 2)}};
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
@@ -173,7 +175,7 @@ scene::Scene makeSunlitScene() {
     scene::Light sun;
     sun.type = scene::LightType::Directional;
     sun.color = dvec3(3);
-    sun.direction = glm::normalize(dvec3(0.05, -1, 0.02));
+    sun.direction = dvec3(0, -1, 0);
     sun.shadow = "visibility";
     scene.lights = {sun};
     return scene;

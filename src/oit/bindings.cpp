@@ -27,7 +27,8 @@ std::vector<gpu::Binding> meshBindings() {
             {shader::kBindingMesh, BindingType::UniformBuffer},
             {shader::kBindingMaterial, BindingType::UniformBuffer},
             {shader::kBindingColorTexture, BindingType::SampledImage},
-            {shader::kBindingEmissionTexture, BindingType::SampledImage}};
+            {shader::kBindingEmissionTexture, BindingType::SampledImage},
+            {shader::kBindingEnvironment, BindingType::SampledImage}};
 }
 
 std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b) {
@@ -36,7 +37,8 @@ std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gp
 }
 
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
-    return {{shader::kConstantShadowStores, needs.shadowStores}};
+    return {{shader::kConstantShadowStores, needs.shadowStores},
+            {shader::kConstantGlossy, needs.glossy}};
 }
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs) {
@@ -55,6 +57,7 @@ void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer&
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs) {
     commands.bind(shader::kBindingVertices, *inputs.vertices);
     commands.bind(shader::kBindingIndices, *inputs.indices);
+    commands.bind(shader::kBindingEnvironment, *inputs.environment, *inputs.texelSampler);
 }
 
 void bindDraw(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& draw) {

@@ -17,8 +17,8 @@ std::vector<gpu::Binding> mediaBindings();
 std::vector<gpu::Binding> meshBindings();
 std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b);
 
-/// Constants of shaders/common/lighting.glsl: for every pipeline that lights something. Without
-/// them such a shader keeps the code of all shadow stores.
+/// Constants of shaders/common/lighting.glsl and surface.glsl: for every pipeline that lights
+/// something. Without them such a shader keeps the code of all shadow stores and of gloss.
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs);
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs);

@@ -20,6 +20,7 @@ struct Needs {
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
+    bool glossy = false;              ///< glass that mirrors background and lights
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
     bool oneMedium = false;  ///< one medium and one tint in the whole scene
     bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
@@ -55,6 +56,7 @@ struct Inputs {
     const gpu::Buffer* indices = nullptr;
     const gpu::Buffer* meshes = nullptr;           ///< MeshData, one every kUniformStride bytes
     const gpu::Buffer* materials = nullptr;        ///< MaterialData, likewise
+    const gpu::Image* environment = nullptr;  ///< RGBA32F, one texel where there is none
     const gpu::Sampler* textureSampler = nullptr;  ///< linear, repeating
     const gpu::Sampler* texelSampler = nullptr;    ///< nearest, for texelFetch
     std::uint32_t sphereCount = 0;                 ///< slots; those with radius 0 are empty

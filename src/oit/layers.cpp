@@ -86,7 +86,7 @@ SolidTargets Solids::declare(frame::FrameBuilder& frame, const Inputs& inputs) c
 
 LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassDesc& desc,
                      std::uint32_t kinds)
-    : mDrawsSolidFaces(desc.drawsSolidFaces) {
+    : mDrawsSolidFaces(desc.drawsSolidFaces || (inputs.needs.glossy && inputs.needs.solids)) {
     std::vector<std::uint32_t> constants = {inputs.needs.boxes, inputs.needs.varyingDensity,
                                             isColoured(inputs.needs), desc.scale};
     constants.insert(constants.end(), desc.specialization.begin(), desc.specialization.end());

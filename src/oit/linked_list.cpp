@@ -10,7 +10,8 @@
 //         a list is a contiguous array, counted before it is stored, so that its memory is known
 //         and nothing is lost; media are found per screen tile in compute and stored as 8 bytes
 //         (distance, index), from which the resolve intersects again, in double where the device
-//         has it: fp32 distances are thicker than what dense media need; only triangles are rastered.
+//         has it: fp32 distances are thicker than what dense media need; only triangles are
+//         rastered.
 // Limits: more than some ten thousand varying media open at once at a pixel exceed what devices
 //         that cap loop iterations do in one dispatch (counter "exhausted" > 0: not exact there).
 //         Without shaderFloat64, media with optical depths of order 1 within 1e-6 of their distance

@@ -62,10 +62,10 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
       mGather(makePipeline(
           device, name + ".gather", spv::oit_media_bins_gather_comp,
           {kSpheresBinding, {shader::kBindingSortedSpheres, gpu::BindingType::StorageBuffer}})),
-      mBoxRects(makePipeline(device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
-                             join(kBoxBindings, {{shader::kBindingSortedBoxes,
-                                                  gpu::BindingType::StorageBuffer}}),
-                             {areListsSorted && inputs.boxCount > 0})),
+      mBoxRects(makePipeline(
+          device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
+          join(kBoxBindings, {{shader::kBindingSortedBoxes, gpu::BindingType::StorageBuffer}}),
+          {areListsSorted && inputs.boxCount > 0})),
       mBinCount(makePipeline(device, name + ".bin_count", spv::oit_media_bins_bin_comp, {}, {0})),
       mBinScatter(
           makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
@@ -163,8 +163,8 @@ void MediaBins::recordSortLists(gpu::Commands& commands, const Inputs& inputs,
     commands.computeBarrier();
     commands.bindCompute(mSortLists);
     bindFrame(commands, inputs);
-    commands.pushConstants(shader::BinPush{.counts = set.offsets.deviceAddress(),
-                                           .pairs = set.pairs.deviceAddress()});
+    commands.pushConstants(
+        shader::BinPush{.counts = set.offsets.deviceAddress(), .pairs = set.pairs.deviceAddress()});
     commands.dispatch((mTileCount + 63) / 64);
 }
 
@@ -264,7 +264,8 @@ std::uint64_t MediaBins::bytes() const {
     std::uint64_t sum = mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes();
     if (mSort) sum += mSort->bytes();
     if (mBoxSort)
-        sum += mBoxSort->bytes() + mBoxKeyValues.bytes() + mBoxValues.bytes() + mSortedBoxes.bytes();
+        sum +=
+            mBoxSort->bytes() + mBoxKeyValues.bytes() + mBoxValues.bytes() + mSortedBoxes.bytes();
     for (const Set* set : {&mSpheres, &mBoxes})
         for (const gpu::Buffer* buffer :
              {&set->rects, &set->offsets, &set->cursors, &set->sums, &set->pairs})

@@ -94,11 +94,10 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
     if (mNeeds.surfaces) {
         mSurfaceCount = makeSurfacePipeline(device, name + ".surface_count",
                                             spv::oit_linked_list_surface_count_frag);
-        mSurfaceStore =
-            makeSurfacePipeline(device, name + ".surface_store",
-                                choose(device, spv::oit_linked_list_surface_store_frag,
-                                       spv::oit_linked_list_surface_store_frag_float64),
-                                lightingConstants(mNeeds));
+        mSurfaceStore = makeSurfacePipeline(device, name + ".surface_store",
+                                            choose(device, spv::oit_linked_list_surface_store_frag,
+                                                   spv::oit_linked_list_surface_store_frag_float64),
+                                            lightingConstants(mNeeds));
     }
     mCounters = makeBuffer("counters", sizeof(shader::ListCounters));
     mCountersRead =
@@ -173,8 +172,7 @@ void PixelLists::planRounds(const OitMethod::MeasureFunction& measure) {
         if (counters().at("exhausted") == 0 || mRoundCount >= kMaxRounds) return;
         mRoundCount *= 2;
         mResolve = makeResolve();
-        mStates =
-            makeBuffer("states", mProgress.bytes() / 4 * sizeof(shader::PixelState));
+        mStates = makeBuffer("states", mProgress.bytes() / 4 * sizeof(shader::PixelState));
     }
 }
 
@@ -213,14 +211,12 @@ void PixelLists::allocateForBands() {
     const std::uint32_t pixels = largest.tileCount * kTilePixels;
     mOffsets = makeBuffer("offsets", 4ull * (pixels + 1));
     mSums = makeBuffer("sums", 4ull * gpu::PrefixSum::sumCount(pixels + 1));
-    mSurfaceOffsets =
-        makeBuffer("surface_offsets", mNeeds.surfaces ? 4ull * (pixels + 1) : 0);
+    mSurfaceOffsets = makeBuffer("surface_offsets", mNeeds.surfaces ? 4ull * (pixels + 1) : 0);
     mSurfaceCursors = makeBuffer("surface_cursors", mNeeds.surfaces ? 4ull * pixels : 0);
     mProgress = makeBuffer("progress", 4ull * pixels);
     mLists = makeBuffer("lists", bytes);
     mBandTotals = makeBuffer("band_totals", 4 * mBands.size());
-    mBandTotalsRead =
-        makeBuffer("band_totals_read", 4 * mBands.size(), gpu::MemoryKind::Readback);
+    mBandTotalsRead = makeBuffer("band_totals_read", 4 * mBands.size(), gpu::MemoryKind::Readback);
 }
 
 shader::ListPush PixelLists::makePush(const Band& band) const {
@@ -326,8 +322,7 @@ void PixelLists::declareTotals(frame::FrameBuilder& frame, const Inputs& inputs)
         commands.pushConstants(push);
         commands.dispatch((mTileCount + 63) / 64);
     });
-    frame.addReadback(mName + ".totals_read", frame.importBuffer(mTileTotals),
-                      mTileTotalsRead);
+    frame.addReadback(mName + ".totals_read", frame.importBuffer(mTileTotals), mTileTotalsRead);
 }
 
 void PixelLists::declareScan(frame::FrameBuilder& frame, const Band& band) {
@@ -363,8 +358,8 @@ void PixelLists::declareStore(frame::FrameBuilder& frame, const Inputs& inputs, 
     if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
 }
 
-void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
-                                const Band& band, bool isFirstWriter) {
+void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+                                bool isFirstWriter) {
     frame::PassBuilder& pass = frame.addPass(mName + ".resolve");
     mBins->declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
@@ -406,8 +401,7 @@ void PixelLists::declare(frame::FrameBuilder& frame, const Inputs& inputs, bool 
         declareResolve(frame, inputs, band, isFirstWriter && band.firstSlot == 0);
     }
     frame.addReadback(mName + ".counters", frame.importBuffer(mCounters), mCountersRead);
-    frame.addReadback(mName + ".band_totals", frame.importBuffer(mBandTotals),
-                      mBandTotalsRead);
+    frame.addReadback(mName + ".band_totals", frame.importBuffer(mBandTotals), mBandTotalsRead);
 }
 
 std::map<std::string, std::uint64_t> PixelLists::counters() {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What: exact order-independent transparency in compute: media sorted by their smallest distance,
 //       binned to screen tiles and composited front to back with all state in registers.
-// Source: T. Ganestam et al. and others bin splats to tiles; B. Kerbl et al.: "3D Gaussian
-//         Splatting for Real-Time Radiance Field Rendering", SIGGRAPH 2023, section 6 (tiles,
-//         depth order, early termination).
+// Source: B. Kerbl et al.: "3D Gaussian Splatting for Real-Time Radiance Field Rendering", SIGGRAPH
+//         2023, section 6 (tiles, depth order, early termination); A. Mai et al.: "EVER: Exact
+//         Volumetric Ellipsoid Rendering for Real-time View Synthesis", 2024 (events of media that
+//         overlap).
 // Differs: media have extent; whether composition in the order of a tile's list is exact is not
-//         assumed but found out at each pixel (classify.comp). Tiles where it is not, and tiles
-//         with surfaces, get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
+//         assumed but found out at each pixel (classify.comp). Where media of constant density mix,
+//         a few intervals are kept in registers and crossed as soon as their order is certain
+//         (overlaps.comp). Other tiles, such as those with surfaces, get the sorted lists of each
+//         pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
 //         largest radiance that media or the background may still send (errorBound()).
 // Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
@@ -16,6 +19,7 @@
 #include <shaders/common/frame.h>
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/tile/tile.h>
+#include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/tile/classify.comp.float64.hpp>
 #include <spv/oit/tile/classify.comp.hpp>
@@ -26,6 +30,8 @@
 #include <spv/oit/tile/lit_volumes.comp.float64.hpp>
 #include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/overlaps.comp.float64.hpp>
+#include <spv/oit/tile/overlaps.comp.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
 
@@ -41,7 +47,7 @@ using frame::Access;
 const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
 
 struct Settings {
-    float epsilon = 1.f / 1024;  ///< transmittance at which a pixel stops; 0: exact
+    float epsilon = 1.f / 1024;                 ///< transmittance at which a pixel stops; 0: exact
     std::uint64_t budgetBytes = 1024ull << 20;  ///< for lists
 };
 
@@ -66,13 +72,18 @@ class Tile final : public OitMethod {
     };
 
     gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
-                                      const std::vector<gpu::Binding>& own) const;
+                                      const std::vector<gpu::Binding>& own,
+                                      const std::vector<std::uint32_t>& specialization = {}) const;
     gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
                            gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
     shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
     void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
     void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
+    /// Sources are worked out once per ray: for a few media, where light is the same everywhere.
+    bool canComposite() const {
+        return !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
+    }
     void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
@@ -83,7 +94,7 @@ class Tile final : public OitMethod {
     Needs mNeeds;
     std::uint32_t mTileCount;
     MediaBins mBins;
-    Group mAll, mOrdered, mVolumes;  // mAll: those that classify visits
+    Group mAll, mOrdered, mVolumes, mFewMix, mManyMix;  // mAll: those that classify visits
     gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
@@ -107,30 +118,50 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     const std::vector<gpu::Binding> images = {
         {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
         {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
-    mAll = {makePipeline("classify", choose(spv::oit_tile_classify_comp,
-                                            spv::oit_tile_classify_comp_float64), {}),
-            shader::kTileSize};
-    mOrdered = {makePipeline("composite", choose(spv::oit_tile_composite_comp,
-                                                 spv::oit_tile_composite_comp_float64), images),
-                shader::kTileSize};
+    mAll = {
+        makePipeline("classify",
+                     choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64), {}),
+        shader::kTileSize};
+    mOrdered = {
+        makePipeline("composite",
+                     choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
+                     images),
+        shader::kTileSize};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
-    if (mNeeds.boxes && mNeeds.oneSource) {
-        mVolumes = {makePipeline("volumes", choose(spv::oit_tile_volumes_comp,
-                                                   spv::oit_tile_volumes_comp_float64), images),
+    if (!mNeeds.oneSource && canComposite()) {
+        const auto overlaps =
+            choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64);
+        mFewMix = {makePipeline("few_overlaps", overlaps, images,
+                                {shader::kFewIntervals, shader::kClassManyMix}),
+                   pixels};
+        mManyMix = {makePipeline("many_overlaps", overlaps, images,
+                                 {shader::kManyIntervals, shader::kClassLists}),
                     pixels};
+    }
+    if (mNeeds.boxes && mNeeds.oneSource) {
+        mVolumes = {
+            makePipeline("volumes",
+                         choose(spv::oit_tile_volumes_comp, spv::oit_tile_volumes_comp_float64),
+                         images),
+            pixels};
     } else if (mNeeds.boxes && mNeeds.oneMedium) {
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
-                                        spv::oit_tile_lit_volumes_comp_float64), images),
+                                        spv::oit_tile_lit_volumes_comp_float64),
+                                 images),
                     pixels};
-        mClassifyBoxes = makePipeline("classify_boxes",
-                                      choose(spv::oit_tile_classify_boxes_comp,
-                                             spv::oit_tile_classify_boxes_comp_float64), {});
+        mClassifyBoxes = makePipeline(
+            "classify_boxes",
+            choose(spv::oit_tile_classify_boxes_comp, spv::oit_tile_classify_boxes_comp_float64),
+            {});
     }
     if (mNeeds.surfaces)
         mMark = {device,
                  {.name = "oit.tile.mark_surfaces",
-                  .vertexSpirv = spv::common_mesh_vert,
+                  // The one that the lists are drawn with: both must see the same pixels.
+                  .vertexSpirv = device.features().shaderFloat64
+                                     ? std::span<const std::uint32_t>(spv::common_mesh_vert_float64)
+                                     : spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
                   .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
                   .pushConstantBytes = sizeof(shader::TilePush),
@@ -143,21 +174,25 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
 }
 
 gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
-                                        const std::vector<gpu::Binding>& own) const {
+                                        const std::vector<gpu::Binding>& own,
+                                        const std::vector<std::uint32_t>& specialization) const {
+    std::vector<std::uint32_t> constants = {mNeeds.orthographic,
+                                            mNeeds.varyingDensity,
+                                            mNeeds.oneSource,
+                                            mNeeds.colouredExtinction,
+                                            mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
+                                            mNeeds.oneMedium};
+    constants.insert(constants.end(), specialization.begin(), specialization.end());
     return {*mDevice,
             {.name = std::string("oit.tile.") + stage,
              .spirv = spirv,
              .bindings = join(join(frameBindings(), mediaBindings()), join({kOpaqueT}, own)),
              .pushConstantBytes = sizeof(shader::TilePush),
-             .specialization = {mNeeds.orthographic, mNeeds.varyingDensity, mNeeds.oneSource,
-                                mNeeds.colouredExtinction,
-                                mNeeds.oneSource ? 1 : std::max(mNeeds.media, 1u),
-                                mNeeds.oneMedium},
+             .specialization = std::move(constants),
              .constants = lightingConstants(mNeeds)}};
 }
 
-gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes,
-                             gpu::MemoryKind memory) const {
+gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes, gpu::MemoryKind memory) const {
     return {*mDevice,
             {.name = std::string("oit.tile.") + stage,
              .bytes = std::max<std::uint64_t>(bytes, 16),
@@ -199,6 +234,17 @@ void Tile::prepare(const MeasureFunction& measure) {
         declareClassify(frame, inputs);
     });
     planTiles();
+    // Which tiles cannot hold what is open at a time?
+    for (Group* group : {&mFewMix, &mManyMix}) {
+        if (group->tileCount == 0) continue;
+        measure([this, group](frame::FrameBuilder& frame, const Inputs& inputs) {
+            mBins.declareCount(frame, inputs);
+            mBins.declareScatter(frame, inputs);
+            declareComposite(frame, inputs, *group, true);
+            frame.addReadback("oit.tile.classes_read", frame.importBuffer(mClasses), mClassesRead);
+        });
+        planTiles();
+    }
     if (mLists) mLists->prepare(measure);
 }
 
@@ -251,16 +297,17 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
 }
 
 void Tile::planTiles() {
-    // Sources are worked out once per ray for a few media, and where light is the same everywhere.
-    const bool canComposite =
-        !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
-    std::vector<std::uint32_t> empty, ordered, volumes, lists;
+    std::vector<std::uint32_t> empty, ordered, volumes, fewMix, manyMix, lists;
     const auto classes = mClassesRead.mappedAs<std::uint32_t>();
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         if (classes[tile] == shader::kClassEmpty)
             empty.push_back(tile);
-        else if (classes[tile] == shader::kClassOrdered && canComposite)
+        else if (classes[tile] == shader::kClassOrdered && canComposite())
             ordered.push_back(tile);
+        else if (classes[tile] == shader::kClassFewMix && canComposite())
+            fewMix.push_back(tile);
+        else if (classes[tile] == shader::kClassManyMix)
+            manyMix.push_back(tile);
         else if (classes[tile] == shader::kClassVolumes)
             volumes.push_back(tile);
         else
@@ -271,6 +318,8 @@ void Tile::planTiles() {
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
     setTiles(mOrdered, ordered);
     setTiles(mVolumes, volumes);
+    setTiles(mFewMix, fewMix);
+    setTiles(mManyMix, manyMix);
     mAll.tiles = {};  // not visited again
     mListTileCount = lists.size();
     mLists.reset();
@@ -298,24 +347,25 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    pass.readsWrites(frame.importBuffer(mCounters), Access::ComputeWrite);
+    for (const gpu::Buffer* buffer : {&mCounters, &mClasses})
+        pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (isFirstWriter)
         pass.writes(inputs.result, Access::ComputeWrite);
     else
         pass.readsWrites(inputs.result, Access::ComputeWrite);
-    pass.record([this, inputs, &group](gpu::Commands& commands,
-                                       const frame::PassResources& resources) {
-        commands.bindCompute(group.pipeline);
-        bindFrame(commands, inputs);
-        bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
-        commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
-                      *inputs.texelSampler);
-        commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
-                      *inputs.texelSampler);
-        commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
-        commands.pushConstants(makePush(group.tiles, group.tileCount));
-        commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
-    });
+    pass.record(
+        [this, inputs, &group](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindCompute(group.pipeline);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
+            commands.pushConstants(makePush(group.tiles, group.tileCount));
+            commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
+        });
 }
 
 void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -323,7 +373,7 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
     bool isFirstWriter = mIsScreenCovered;
-    for (Group* group : {&mOrdered, &mVolumes}) {
+    for (Group* group : {&mOrdered, &mVolumes, &mFewMix, &mManyMix}) {
         if (group->tileCount == 0) continue;
         declareComposite(frame, inputs, *group, isFirstWriter);
         isFirstWriter = false;
@@ -339,6 +389,8 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["pairs"] = mBins.pairCount();
     counters["tilesOrdered"] = mOrdered.tileCount;
     counters["tilesVolumes"] = mVolumes.tileCount;
+    counters["tilesFewMix"] = mFewMix.tileCount;
+    counters["tilesManyMix"] = mManyMix.tileCount;
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] = own.stopped;
@@ -353,7 +405,8 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
     bytes["bins"] = mBins.bytes();
-    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mFewMix.tiles.bytes() +
+                     mManyMix.tiles.bytes() + mClasses.bytes();
     return bytes;
 }
 
@@ -362,8 +415,9 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
 const MethodInfo& info() {
     static const MethodInfo kInfo{
         .name = "tile",
-        .summary = "Media composited per screen tile in compute, in certified order; lists only "
-                   "where that needs them.",
+        .summary =
+            "Media composited per screen tile in compute, in certified order; lists only "
+            "where that needs them.",
         .paper = "Kerbl et al.: 3D Gaussian Splatting, 2023 (tiles); Barta, Kovacs 2011 (lists)",
         .exactness = Exactness::Bounded,
         .passes = "1 sort + 1 compute; those of linked_list for tiles with surfaces or mixtures",

@@ -3,6 +3,7 @@
 
 #include <core/phase.hpp>
 #include <reference/roots.hpp>
+#include <reference/surface_response.hpp>
 
 #include <algorithm>
 
@@ -92,10 +93,11 @@ void Lighting::scatter(const dvec3& position, const dvec3& direction,
     }
 }
 
-dvec3 Lighting::illuminate(const SurfacePoint& point) const {
+template <typename Weight>
+dvec3 Lighting::sumLights(const SurfacePoint& point, const Weight& weight) const {
     const dvec3 size = glm::max(dvec3(1), glm::abs(point.position));
     const double tMin = kContactDistance * std::max({size.x, size.y, size.z});
-    dvec3 sum = mAmbient;
+    dvec3 sum(0);
     for (const scene::Light& light : mLights) {
         const Arrival arrival = arrive(light, point.position);
         const double cosine = -glm::dot(point.normal, arrival.travel);
@@ -103,9 +105,21 @@ dvec3 Lighting::illuminate(const SurfacePoint& point) const {
         const dvec3 visible = castsShadows(light)
                                   ? transmittance(arrival, point.position, tMin, point.triangle)
                                   : dvec3(1);
-        sum += visible * arrival.irradiance * (cosine / kPi);
+        sum += visible * arrival.irradiance * weight(arrival.travel);
     }
     return sum;
+}
+
+dvec3 Lighting::illuminate(const SurfacePoint& point) const {
+    return mAmbient + sumLights(point, [&](const dvec3& travel) {
+               return -glm::dot(point.normal, travel) / kPi;
+           });
+}
+
+dvec3 Lighting::highlights(const SurfacePoint& point, const dvec3& direction) const {
+    return sumLights(point, [&](const dvec3& travel) {
+        return highlight(point.normal, -direction, -travel, *point.material);
+    });
 }
 
 void Lighting::collectBreaks(const scene::Ray& ray, std::vector<double>& breaks) const {

@@ -31,6 +31,9 @@ class Lighting {
     /// Ambient radiance + sum over lights of E * T * cos / pi.
     dvec3 illuminate(const SurfacePoint& point) const;
 
+    /// Sum over lights of E * T * highlight(), towards the viewer against `direction`.
+    dvec3 highlights(const SurfacePoint& point, const dvec3& direction) const;
+
     /// Appends the distances along a ray at which light is not smooth or has its peak; edges of
     /// shadows only while few things cast them.
     void collectBreaks(const scene::Ray& ray, std::vector<double>& breaks) const;
@@ -48,6 +51,9 @@ class Lighting {
     bool castsShadows(const scene::Light& light) const;
     dvec3 transmittance(const Arrival& arrival, const dvec3& position, double tMin,
                         std::uint32_t except) const;
+    /// Sum over the lights in front of a surface of E * T * weight(direction of the light).
+    template <typename Weight>
+    dvec3 sumLights(const SurfacePoint& point, const Weight& weight) const;
 
     const Occlusion& mOcclusion;
     bool mWithShadows;

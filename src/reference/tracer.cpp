@@ -42,7 +42,23 @@ struct Tracer::World {
     SurfaceResponse respondTo(const scene::Ray& ray, const Hit& hit) const {
         const SurfacePoint point = triangles.describe(ray, hit);
         const bool isLit = point.material->type != scene::MaterialType::Solid;
-        return respond(*point.material, point.uv, isLit ? lighting.illuminate(point) : dvec3(0));
+        return respond(*point.material, point.uv, isLit ? lighting.illuminate(point) : dvec3(0),
+                       findGloss(ray, hit, point));
+    }
+
+    Gloss findGloss(const scene::Ray& ray, const Hit& hit, const SurfacePoint& point) const {
+        const scene::Material& material = *point.material;
+        if (material.roughness < 0 || material.type == scene::MaterialType::Opaque) return {};
+        const bool isPane = material.type == scene::MaterialType::Thin;
+        const double cosine = std::max(-glm::dot(point.normal, ray.direction), 0.0);
+        Gloss gloss;
+        gloss.share = glassReflectance(cosine, material.ior, isPane);
+        gloss.radiance = gloss.share *
+                         scene::environmentRadiance(scene.background,
+                                                    ray.direction + 2 * cosine * point.normal);
+        // Lights do not reach the inner side of a solid.
+        if (isPane || hit.entering) gloss.radiance += lighting.highlights(point, ray.direction);
+        return gloss;
     }
 
     void collectEvents(const scene::Ray& ray, double tEnd, RayScratch& scratch) const;

@@ -83,6 +83,7 @@ shader::MaterialData makeMaterial(const scene::Material& material) {
     data.scattering = vec3(material.scattering);
     data.collimation = static_cast<float>(material.collimation);
     data.ior = static_cast<float>(material.ior);
+    data.roughness = static_cast<float>(material.roughness);
     return data;
 }
 
@@ -358,6 +359,7 @@ oit::Inputs GpuScene::makeInputs() const {
             .indices = &mIndices,
             .meshes = &mMeshes,
             .materials = &mMaterials,
+            .environment = &mEnvironment,
             .textureSampler = &mTextureSampler,
             .texelSampler = &mTexelSampler,
             .sphereCount = mSphereCount,

@@ -25,6 +25,7 @@ void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
         const scene::Material& material = scene.materials[mesh.material];
         if (material.type == scene::MaterialType::Opaque) continue;
         needs.surfaces = true;
+        if (material.roughness >= 0) needs.glossy = true;
         if (material.type == scene::MaterialType::Solid) needs.solids = true;
         if (material.type == scene::MaterialType::Thin) addThinNeeds(material, needs);
         if (material.type == scene::MaterialType::Solid &&
@@ -117,6 +118,7 @@ std::string describe(const oit::Needs& needs) {
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("glossy", needs.glossy, "glass mirrors background and lights") +
            line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
            line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
            line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +

@@ -122,7 +122,6 @@ void ShadowCasters::uploadMaterials(gpu::Submitter& submitter, const PreparedSce
         data.coverage = static_cast<float>(
             material.type == scene::MaterialType::Thin ? material.coverage : 1.0);
         data.alphaCutoff = static_cast<float>(material.alphaCutoff);
-        data.ior = static_cast<float>(material.ior);
         const scene::Texture* texture = material.colorTexture.get();
         const bool usesTexture =
             texture && (material.type == scene::MaterialType::Thin || material.alphaCutoff >= 0);

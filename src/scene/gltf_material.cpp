@@ -167,7 +167,10 @@ void GltfMaterialReader::readGlass(const tinygltf::Material& source, int index,
     }
     const auto* glass = findExtension(source.extensions, "KHR_materials_transmission");
     const double transmission = glass ? factors.number(*glass, "transmissionFactor", 0, 0, 1) : 0.0;
-    if (!(transmission > 0)) return;
+    if (!(transmission > 0)) {
+        if (material.type == MaterialType::Thin) material.roughness = -1;  // leaves, cloth: matt
+        return;
+    }
     if (glass->Has("transmissionTexture")) mGltf.ignored.insert("transmission textures");
     const dvec3 color = material.albedo;
     const auto* volume = findExtension(source.extensions, "KHR_materials_volume");

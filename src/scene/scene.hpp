@@ -86,7 +86,9 @@ struct Material {
     double collimation = 1;
     // Thin and solid.
     double ior = 1.5;
-    double roughness = 0;
+    /// >= 0: mirrors the background by Fresnel's equations and shows highlights of that roughness
+    /// (GGX, squared); what it mirrors is not let through. < 0: matt.
+    double roughness = -1;
     // Solid: homogeneous medium inside a closed mesh.
     dvec3 absorption{0};
     dvec3 scattering{0};

@@ -15,7 +15,8 @@ namespace brume::shadows {
 
 /// What a map needs of its store.
 struct StoreRequest {
-    bool isColoured = false;  ///< else one channel serves all three
+    bool isColoured = false;   ///< else one channel serves all three
+    bool hasSurfaces = false;  ///< thin or solid ones
 };
 
 /// The map that a store is built for.

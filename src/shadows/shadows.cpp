@@ -99,7 +99,8 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     data.faceCount = faceCountFor(light);
     const MapSettings own = takeMapSettings(settings, data.faceCount);
     map->isKept = own.isKept;
-    map->store = createStore(store, *mDevice, {mCasters.isColoured}, settings);
+    map->store = createStore(
+        store, *mDevice, {mCasters.isColoured, mCasters.translucentTriangleCount > 0}, settings);
     const CasterChoice choice = store == "opaque"  ? CasterChoice::Opaque
                                 : store == "exact" ? CasterChoice::All
                                                    : CasterChoice::Translucent;

@@ -6,7 +6,8 @@
 // Differs: casters come from lists sorted by distance and identity, so that the curve does not
 //         depend on the order of submission; nodes keep the optical depth on both sides (a surface
 //         is one node, a homogeneous medium two, both exact); channels share their nodes; the
-//         curve is made with 16 nodes more than are kept; squared error, not area.
+//         curve is made with 16 nodes more than are kept; squared error, not area; a step may also
+//         be moved to a neighbour.
 // Limits: fewer nodes than the curve has steps and bends: the least important ones are smoothed.
 // Cost:   4 K (1 + 2 c) bytes per texel with c channels; 4 K reads per lit point.
 #include <shadows/map_pass.hpp>
@@ -25,7 +26,8 @@ class Visibility final : public ShadowStore {
           mNodeCount(nodeCount),
           mBuild(makeMapPipeline(device, "shadow.visibility.build",
                                  spv::shadows_visibility_build_comp,
-                                 {request.isColoured, nodeCount + kSpareNodes})) {}
+                                 {request.isColoured, nodeCount + kSpareNodes,
+                                  request.hasSurfaces})) {}
 
     const StoreInfo& info() const override;
     void allocate(shader::ShadowMap& map) override {

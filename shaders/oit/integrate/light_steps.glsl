@@ -35,8 +35,10 @@ float limitStepByLight(LightData light, vec3 origin, vec3 rayDirection, float pl
     if (light.type == kLightSpot) {
         vec3 fromLight = place * rayDirection - offset;
         float near = 1e-5 * distance;
-        own = min(own, nextConeCrossing(rayDirection, fromLight, light.direction, light.cosInner, near));
-        own = min(own, nextConeCrossing(rayDirection, fromLight, light.direction, light.cosOuter, near));
+        own = min(own,
+                  nextConeCrossing(rayDirection, fromLight, light.direction, light.cosInner, near));
+        own = min(own,
+                  nextConeCrossing(rayDirection, fromLight, light.direction, light.cosOuter, near));
     }
     return max(own, slack);
 }
@@ -47,7 +49,7 @@ float limitStepByLights(vec3 origin, vec3 rayDirection, float place) {
         limit = min(limit, min(lights[i].type != kLightDirectional
                                    ? limitStepByLight(lights[i], origin, rayDirection, place)
                                    : kNoCrossing,
-                               shadowStep(i)));
+                               shadowStep(i, origin + rayDirection * place, rayDirection)));
     return limit;
 }
 

@@ -11,9 +11,8 @@
 const int kNodeCount = 5;
 const float kNodes[kNodeCount] =
     float[](0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332);
-const float kWeights[kNodeCount] =
-    float[](0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
-            0.118463442528095);
+const float kWeights[kNodeCount] = float[](0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                           0.239314335249683, 0.118463442528095);
 const float kUpTo[kNodeCount * kNodeCount] =  // row k: from 0 to node k
     float[](0.059231721264, -0.019570364359, 0.011254400819, -0.005593793661, 0.001588112968,
             0.128151005670, 0.119657167625, -0.024592114620, 0.010318280671, -0.002768994399,
@@ -50,8 +49,9 @@ float crossVarying(inout Path path, Nodes nodes, float distance) {
     vec3 variation = vec3(0), size = vec3(0), deviation = vec3(0);
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         vec3 depthAtNode = vec3(0);
-        [[unroll]] for (uint j = 0u; j < kNodeCount; ++j)
+        [[unroll]] for (uint j = 0u; j < kNodeCount; ++j) {
             depthAtNode += kUpTo[kNodeCount * k + j] * nodes.extinction[j];
+        }
         depthAtNode *= distance;
         vec3 difference = nodes.source[k] - mean * nodes.extinction[k];
         variation += kWeights[k] * difference * expChannels(-max(depthAtNode, 0.0));

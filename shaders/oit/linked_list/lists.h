@@ -19,14 +19,14 @@ BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 struct ListPush {
-    uint step;        // surface passes: which mesh is drawn; count, store: first medium of the
-                      // slice of a tile's media to visit; resolve: the round, from 0
-    uint firstSlot;   // of the band, among the tiles that have lists
-    uint tileCount;   // in the band
-    uint roundCount;  // resolve
+    uint step;         // surface passes: which mesh is drawn; count, store: first medium of the
+                       // slice of a tile's media to visit; resolve: the round, from 0
+    uint firstSlot;    // of the band, among the tiles that have lists
+    uint tileCount;    // in the band
+    uint roundCount;   // resolve
     uint64_t tileMap;  // uint[screen tiles]: slot of each, or ~0; then uint[]: tile of each slot
-    uint64_t entries;                     // uvec2[]
-    uint64_t offsets;                     // uint[pixels + 1]: counts until they are summed
+    uint64_t entries;  // uvec2[]
+    uint64_t offsets;  // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
     uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
     uint64_t records;                     // SurfaceRecord[]
@@ -47,8 +47,8 @@ BRUME_CONST uint kUnsortedBit = 0x80000000u;   // in progress: resolve has to so
 
 // What a triangle leaves in a list.
 struct SurfaceRecord {
-    vec3 radiance;      // thin: reflected and emitted, not multiplied by the coverage
-    float coverage;     // thin
+    vec3 radiance;      // thin: reflected and emitted, not multiplied by the coverage; solid: mirrored
+    float coverage;     // thin; solid: share of light that the face mirrors
     vec3 transmission;  // thin; solid: extinction, 1/m
     vec3 scattering;    // solid: 1/m
     uint face;          // kFaceThin, kFaceFront, kFaceBack

@@ -14,15 +14,17 @@ SurfaceRecord makeRecord(SurfacePoint point) {
     record.distanceLo = point.t > 0.0 ? point.tLo : 0.0;
     record.rank = triangleHash(push.step, triangle);
     if (point.material.type == kMaterialSolid) {
-        record.radiance = vec3(0);
-        record.coverage = 0.0;
+        Gloss gloss = findGloss(point);
+        record.radiance = gloss.radiance;
+        record.coverage = 1.0 - gloss.rest;
         record.transmission = point.material.extinction;
         record.scattering = point.material.scattering;
         record.face = point.isFront ? kFaceFront : kFaceBack;
     } else {
-        record.radiance = sentRadiance(point, point.material.reflected);
-        record.coverage = point.material.coverage * point.color.a;
-        record.transmission = point.material.transmission * point.color.rgb;
+        ThinResponse response = findThinResponse(point);
+        record.radiance = response.radiance;
+        record.coverage = response.coverage;
+        record.transmission = response.transmission;
         record.scattering = vec3(0);
         record.face = kFaceThin;
     }

@@ -13,6 +13,9 @@ void crossSurface(inout Path path, inout Sums solids, SurfaceRecord record) {
         vec3 loss = record.coverage * (1.0 - record.transmission);
         addExactly(path.surfaces, path.surfacesLo, -(path.surfaces + path.surfacesLo) * loss);
     } else {
+        path.radiance += path.surfaces * path.decay * record.radiance;
+        addExactly(path.surfaces, path.surfacesLo,
+                   -(path.surfaces + path.surfacesLo) * record.coverage);
         addToSums(solids, record.face == kFaceFront ? 1.0 : -1.0, record.transmission,
                   record.scattering);
     }

@@ -15,6 +15,7 @@ struct Run {
 };
 
 Run runs[kRows];
+bool isMixed = false;  // media of different sources overlap, or their order is another
 bool needsLists = false;
 
 void meetSphere(uint row, SphereData sphere) {
@@ -27,29 +28,30 @@ void meetSphere(uint row, SphereData sphere) {
         runs[row].tint = sphere.tint;
     }
     const float kMargin = 1.000001;  // rounding must not hide an overlap
-    needsLists = needsLists || chord.enter < runs[row].reachBefore * kMargin;
+    isMixed = isMixed || chord.enter < runs[row].reachBefore * kMargin;
     runs[row].reach = max(runs[row].reach, chord.enter + chord.span);
 }
 
 void main() {
     uint tile;
     if (!beginColumn(tile)) return;
-    [[unroll]] for (uint row = 0u; row < kRows; ++row)
-        runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
     uint k = UintArray(push.sphereOffsets).at[tile];
     uint last = UintArray(push.sphereOffsets).at[tile + 1u];
     bool isEmpty = k == last;
     needsLists = last - k > kTileLongestList;
     last = min(last, k + kTileLongestList);
     uint before = 0u;
+    bool isSmooth = false;
     while (k < last) {
         uint index = UintArray(push.spherePairs).at[k];
         ++k;
         needsLists = needsLists || index < before;  // the list could not be sorted
         before = index;
         SphereData sphere = spheres[index];
-        if (!kOneSource)
-            [[unroll]] for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
+        isSmooth = isSmooth || (kSmooth && sphere.profile == kProfileSmooth);
+        if (!kOneSource) [[unroll]]
+            for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
     }
     k = UintArray(push.boxOffsets).at[tile];
     last = UintArray(push.boxOffsets).at[tile + 1u];
@@ -62,7 +64,9 @@ void main() {
         needsLists = needsLists || index < before;
         before = index;
     }
+    needsLists = needsLists || (isMixed && (isSmooth || hasBoxes));
     uint needed = needsLists ? kClassLists
+                  : isMixed  ? kClassFewMix
                   : hasBoxes ? kClassVolumes
                   : isEmpty  ? kClassEmpty
                              : kClassOrdered;

@@ -23,8 +23,8 @@ void beginRows() {
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         sums[row] = vec3(kOneSource ? 0.0 : 1.0);
         lost[row] = radiances[row] = vec3(0);
-        [[unroll]] for (uint m = 0u; m < kMediumCount; ++m)
-            sources[row * kTileMedia + m] = frame.ambient;
+        [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) sources[row * kTileMedia + m] =
+            frame.ambient;
     }
     // Rows inside: loops around loops are not unrolled, and arrays would leave the registers.
     for (uint i = 0u; i < frame.lightCount; ++i) {
@@ -32,18 +32,15 @@ void beginRows() {
         vec3 irradiance = lightIrradiance(lights[i], i, vec3(0), travel);
         [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
             MediumData medium = loadMedium(m);
-            [[unroll]] for (uint row = 0u; row < kRows; ++row)
-                sources[row * kTileMedia + m] +=
-                    irradiance *
-                    phaseFunction(medium.phase, medium.g, -dot(travel, vec3(rays[row].direction)));
+            [[unroll]] for (uint row = 0u; row < kRows; ++row) sources[row * kTileMedia + m] +=
+                irradiance *
+                phaseFunction(medium.phase, medium.g, -dot(travel, vec3(rays[row].direction)));
         }
     }
     [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
         MediumData medium = loadMedium(m);
-        [[unroll]] for (uint row = 0u; row < kRows; ++row)
-            sources[row * kTileMedia + m] =
-                medium.extinction * medium.albedo * sources[row * kTileMedia + m] +
-                medium.emission;
+        [[unroll]] for (uint row = 0u; row < kRows; ++row) sources[row * kTileMedia + m] =
+            medium.extinction * medium.albedo * sources[row * kTileMedia + m] + medium.emission;
     }
 }
 
@@ -57,8 +54,8 @@ void crossSphere(uint row, SphereData sphere, vec3 extinction) {
     vec3 before = perChannel(sums[row]);
     vec3 weight = before * (length * meanDecay(depth, expChannels(-depth)));
     vec3 source = sources[row * kTileMedia];
-    [[unroll]] for (uint m = 1u; m < kMediumCount; ++m)
-        if (sphere.medium == m) source = sources[row * kTileMedia + m];
+    [[unroll]] for (uint m = 1u; m < kMediumCount; ++m) if (sphere.medium == m) source =
+        sources[row * kTileMedia + m];
     radiances[row] += weight * sphere.tint * source;
     precise vec3 next = -weight * extinction - perChannel(lost[row]);
     precise vec3 sum = before + next;
@@ -81,9 +78,8 @@ float findWorst() {
 // The largest radiance per optical depth of any medium; none may glow without absorbing.
 vec3 findLargestSource(uint row) {
     vec3 largest = vec3(0);
-    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m)
-        largest = max(largest, sources[row * kTileMedia + m] /
-                                   max(loadMedium(m).extinction, vec3(1e-30)));
+    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) largest =
+        max(largest, sources[row * kTileMedia + m] / max(loadMedium(m).extinction, vec3(1e-30)));
     return largest * push.largestTint;
 }
 
@@ -104,8 +100,8 @@ float finishRow(uint row, vec3 extinction) {
         float length = sums[row].x;
         vec3 depth = min(extinction * length, vec3(1e30));
         rest = expChannels(-depth);
-        radiances[row] = spheres[0].tint * sources[row * kTileMedia] *
-                         (length * meanDecay(depth, rest));
+        radiances[row] =
+            spheres[0].tint * sources[row * kTileMedia] * (length * meanDecay(depth, rest));
     }
     if (!all(lessThan(pixel, ivec2(frame.size)))) return 0.0;
     vec3 behind = texelFetch(opaqueColor, pixel, 0).rgb;

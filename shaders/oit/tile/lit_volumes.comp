@@ -32,8 +32,7 @@ Nodes evaluateNodes(BoxData box, LocalRay local, float begin, float from, float 
         LightData light = lights[i];
         [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
             vec3 travel;
-            vec3 position =
-                vec3(ray.origin) + rayDirection * (begin + from + distance * kNodes[k]);
+            vec3 position = vec3(ray.origin) + rayDirection * (begin + from + distance * kNodes[k]);
             vec3 irradiance = lightIrradiance(light, i, position, travel);
             nodes.source[k] +=
                 irradiance * phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
@@ -43,8 +42,8 @@ Nodes evaluateNodes(BoxData box, LocalRay local, float begin, float from, float 
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         float value = boxDensity(density, from + distance * kNodes[k]);
         nodes.extinction[k] = value * medium.extinction;
-        nodes.source[k] = value * (medium.extinction * medium.albedo * nodes.source[k] +
-                                   medium.emission);
+        nodes.source[k] =
+            value * (medium.extinction * medium.albedo * nodes.source[k] + medium.emission);
     }
     return nodes;
 }
@@ -62,6 +61,8 @@ void crossBox(BoxData box, float limit) {
         float distance = target - at;
         if (distance <= 0.0) break;  // rounding: nothing is left
         float error = crossVarying(path, evaluateNodes(box, local, begin, at, distance), distance);
+        steps += shadowIterations;
+        shadowIterations = 0u;
         stepLimit = distance * scaleStep(error);
         at = error > 1.0 ? at : target;
     }
@@ -72,9 +73,8 @@ float findRest() { return largest(path.surfaces * path.decay); }
 // No phase function and no lamp sends more than this along the ray, per optical depth.
 vec3 findLargestSource() {
     float g = abs(medium.g);
-    float phase = medium.phase == kPhaseHenyeyGreenstein
-                      ? phaseHenyeyGreenstein(1.0, g)
-                      : phaseFunction(medium.phase, 0.0, 1.0);
+    float phase = medium.phase == kPhaseHenyeyGreenstein ? phaseHenyeyGreenstein(1.0, g)
+                                                         : phaseFunction(medium.phase, 0.0, 1.0);
     vec3 light = frame.ambient;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         float radius = lights[i].radius;

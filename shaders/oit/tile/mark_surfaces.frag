@@ -13,8 +13,7 @@ layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (point.material.type != kMaterialSolid &&
-        point.t >= texelFetch(opaqueT, ivec2(pixel), 0).x)
+    if (point.material.type != kMaterialSolid && point.t >= texelFetch(opaqueT, ivec2(pixel), 0).x)
         return;
     uvec2 tile = pixel / kTileSize;
     atomicMax(UintArray(push.classes).at[tile.y * frame.tiles.x + tile.x], kClassLists);

@@ -21,7 +21,9 @@ struct TilePush {
 BRUME_CONST uint kClassEmpty = 0u;    // no medium
 BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one common source
 BRUME_CONST uint kClassVolumes = 2u;  // bricks and boxes of one medium; spheres of one source too
-BRUME_CONST uint kClassLists = 3u;    // everything else: sorted lists of each pixel
+BRUME_CONST uint kClassFewMix = 3u;   // spheres of constant density that mix, few at a time
+BRUME_CONST uint kClassManyMix = 4u;  // more at a time
+BRUME_CONST uint kClassLists = 5u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {
     uint stopped;    // invocations that stopped before their last medium
@@ -31,6 +33,10 @@ struct TileCounters {
 
 // Media whose source the composite works out once per ray.
 BRUME_CONST uint kTileMedia = 4u;
+
+// Intervals that overlaps.comp keeps at a time: its time grows with their number.
+BRUME_CONST uint kFewIntervals = 4u;
+BRUME_CONST uint kManyIntervals = 24u;
 
 // Longer lists are left to the sorted lists of each pixel: some devices silently end all loops of
 // an invocation after 65 535 iterations.

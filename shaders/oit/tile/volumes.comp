@@ -29,8 +29,9 @@ float integrateBox(RealRay ray, float limit, BoxData box) {
         float next = max(min(nextPlane(box, local, at), span), at);
         float step = next - at;
         BoxDensity density = makeBoxDensity(box, local, at + 0.5 * step);
-        sum += 0.5 * step * (boxDensity(density, at + step * kNodes.x) +
-                             boxDensity(density, at + step * kNodes.y));
+        sum +=
+            0.5 * step *
+            (boxDensity(density, at + step * kNodes.x) + boxDensity(density, at + step * kNodes.y));
         at = next > at ? next : span;
     }
     return sum;

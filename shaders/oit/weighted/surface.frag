@@ -41,15 +41,14 @@ vec2 refractionOf(SurfacePoint point, Ray ray) {
 void main() {
     Layer layer;
     SurfacePoint point;
-    if (!findSurfaceLayer(layer, point)) discard;
+    bool isLayer = findSurfaceLayer(layer, point);
     bool isSolid = point.material.type == kMaterialSolid;
+    bool isRefracted = kRefraction && (!isSolid || point.isFront) && point.t < opaqueDistance();
+    if (!isLayer && !isRefracted) discard;
+    if (!isLayer) layer.radiance = layer.loss = layer.depth = vec3(0);
     float coverage = isSolid ? 1.0 : point.material.coverage * point.color.a;
-    if (isSolid) {
-        if (!point.isFront) discard;
-        layer.radiance = layer.loss = layer.depth = vec3(0);
-    }
     vec4 offset = vec4(0);
-    if (kRefraction)
+    if (isRefracted)
         offset = coverage * vec4(refractionOf(point, makeRay(gl_FragCoord.xy)), 1.0, layer.t.x);
     storeWeighted(layer, offset, kDiffusion && !isSolid ? blurOf(point, coverage) : 0.0);
 }

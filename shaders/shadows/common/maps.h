@@ -53,7 +53,6 @@ struct ShadowMap {
     uint64_t boxOffsets, boxPairs;
     uint64_t triangleOffsets, trianglePairs;
     uint isIndependent;  // stochastic: samples of a texel are not stratified
-    uint hasCaustics;    // stochastic: clear glass focuses light
 };
 
 // A triangle of any mesh, in metres relative to the camera.
@@ -70,7 +69,6 @@ struct ShadowMaterial {
     vec3 extinction;    // solid, 1/m
     float coverage;
     float alphaCutoff;  // < 0: none
-    float ior;
     uvec2 textureSize;  // 0: none
     uint64_t texture;   // vec4[]
 };
@@ -80,6 +78,14 @@ BRUME_CONST uint kNoiseSize = 64u;
 // Media are cut into pieces of about this optical depth; chosen by us, a test of the visibility
 // store notices a coarser one.
 BRUME_CONST float kPieceDepth = 0.02f;
+// Ids of what one random number decides about. Spheres and triangles have their own below and above;
+// bricks of the first volumes share that of their volume, whose light then ends once.
+BRUME_CONST uint kBoxIds = 0x40000000u;
+BRUME_CONST uint kVolumeIds = 0x7fffff00u;
+BRUME_CONST uint kSharedVolumes = 4u;
+BRUME_CONST uint kTriangleIds = 0x80000000u;
+BRUME_CONST uint kSolidIds = 0xc0000000u;
+
 BRUME_CONST uint kMaxSolidHits = 16u;  // front and back faces of solids along one ray
 
 struct ShadowPush {

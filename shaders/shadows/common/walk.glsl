@@ -67,7 +67,9 @@ void walkBoxes(ShadowMap map, uint tile, Ray ray) {
     for (; k < last; ++k) {
         uint index = UintArray(map.boxPairs).at[k];
         BoxData box = ShadowBoxes(map.boxes).at[index];
-        walkBox(box, ShadowVolumes(map.volumes).at[box.volume], ray, index | 0x40000000u);
+        bool isShared = box.kind == kBoxBrick && box.volume < kSharedVolumes;
+        walkBox(box, ShadowVolumes(map.volumes).at[box.volume], ray,
+                isShared ? kVolumeIds + box.volume : kBoxIds | index);
     }
 }
 
@@ -105,7 +107,7 @@ void walkTriangles(ShadowMap map, uint tile, Ray ray) {
                 SolidHit(hit.t, hit.isFront ? material.extinction : -material.extinction));
         else
             takeSurface(hit.t, surfaceTransmittance(triangle, material, hit.weights),
-                        triangle.id | 0x80000000u);
+                        kTriangleIds | triangle.id);
     }
     vec3 extinction = vec3(0);
     for (uint i = 0u; i + 1u < solidHitCount; ++i) {
@@ -113,7 +115,7 @@ void walkTriangles(ShadowMap map, uint tile, Ray ray) {
         float l = solidHits[i + 1u].t - solidHits[i].t;
         if (l > 0.0 && max(extinction.x, max(extinction.y, extinction.z)) > 1e-12)
             takePiece(solidHits[i].t, solidHits[i + 1u].t, max(extinction, 0.0) * l,
-                      0xc0000000u | i);
+                      kSolidIds | i);
     }
 }
 

@@ -13,9 +13,8 @@ const uint kMaxSamples = 8u;
 ShadowMap map;
 BuildTexel texel;
 vec3 depths[kMaxSamples];
-uint openId = ~0u;          // of the medium interval that pieces belong to
-vec3 crossed;               // its depth so far
-float limits[kMaxSamples];  // its depth at which each sample's ray ends
+uint openId = ~0u;  // of the medium interval that pieces belong to
+vec3 crossed[kSharedVolumes + 1u];  // depth so far: of volumes, and of that interval
 
 // PCG output function (O'Neill 2014).
 uint hashId(uint id) {
@@ -36,18 +35,21 @@ float fragmentNoise(uint id, uint sampleIndex) {
 }
 
 void takePiece(float t0, float t1, vec3 depth, uint id) {
-    if (id != openId) {
+    bool isVolume = id >= kVolumeIds && id < kVolumeIds + kSharedVolumes;
+    uint slot = isVolume ? id - kVolumeIds : kSharedVolumes;
+    if (!isVolume && id != openId) {
         openId = id;
-        crossed = vec3(0);
-        for (uint s = 0u; s < map.count; ++s) limits[s] = -log(1.0 - fragmentNoise(id, s));
+        crossed[slot] = vec3(0);
     }
-    vec3 after = crossed + depth;
-    for (uint s = 0u; s < map.count; ++s)
+    vec3 before = crossed[slot], after = before + depth;
+    crossed[slot] = after;
+    for (uint s = 0u; s < map.count; ++s) {
+        float limit = -log(1.0 - fragmentNoise(id, s));  // depth at which this ray ends
         for (uint c = 0u; c < map.channels; ++c)
-            if (crossed[c] < limits[s] && after[c] >= limits[s])
+            if (before[c] < limit && after[c] >= limit)
                 depths[s][c] =
-                    min(depths[s][c], mix(t0, t1, (limits[s] - crossed[c]) / max(depth[c], 1e-30)));
-    crossed = after;
+                    min(depths[s][c], mix(t0, t1, (limit - before[c]) / max(depth[c], 1e-30)));
+    }
 }
 
 void takeSurface(float t, vec3 transmittance, uint id) {
@@ -66,6 +68,7 @@ void main() {
                            gl_LocalInvocationIndex);
     if (!texel.isInside) return;
     for (uint s = 0u; s < kMaxSamples; ++s) depths[s] = vec3(3.0e38);
+    for (uint i = 0u; i <= kSharedVolumes; ++i) crossed[i] = vec3(0);
     walkCasters(map, texel.tile, mapRay(map, texel.face, vec2(texel.texel) + 0.5));
     for (uint s = 0u; s < map.count; ++s)
         for (uint c = 0u; c < map.channels; ++c)

@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { ShadowPush push; };
 layout(buffer_reference, scalar) writeonly buffer Moments { float at[]; };
 
 vec2 momentsOf(ShadowMap map, float depth) {
-    float z = clamp((min(depth, map.end) - map.begin) / (map.end - map.begin), 0.0, 1.0);
+    float z = vsmDepth(depth, map.begin, map.end);
     return vec2(z, z * z);
 }
 

@@ -23,7 +23,7 @@ vec3 stochasticVsmTransmittance(ShadowMap map, MapPoint point) {
         }
     }
     if (map.channels == 1u) mean = mean.xxx, square = square.xxx;
-    float z = clamp((point.distance - map.begin) / (map.end - map.begin), 0.0, 1.0);
+    float z = vsmDepth(point.distance, map.begin, map.end);
     vec3 variance = max(square - mean * mean, vec3(1e-7));
     vec3 ahead = max(z - mean, 0.0);
     return variance / (variance + ahead * ahead);

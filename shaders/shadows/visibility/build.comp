@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kColoured = true;
 layout(constant_id = 1) const uint kCapacity = 24u;  // nodes while the curve is made
+layout(constant_id = 2) const bool kSteps = true;  // surfaces, whose steps may be moved
 layout(push_constant, scalar) uniform Push { ShadowPush push; };
 layout(buffer_reference, scalar) writeonly buffer Curves { float at[]; };
 
@@ -16,6 +17,8 @@ layout(buffer_reference, scalar) writeonly buffer Curves { float at[]; };
 float nodeZ[kCapacity];
 vec3 nodeBefore[kCapacity], nodeBehind[kCapacity];
 float nodeError[kCapacity];  // of a curve without the node
+uint nodeWay[kCapacity];     // to do without it
+const uint kWayLine = 0u, kWayEarly = 1u, kWayLate = 2u;
 uint nodeCount = 0u;
 
 float meanTransmittance(vec3 depth) {
@@ -24,17 +27,37 @@ float meanTransmittance(vec3 depth) {
     return (t.x + t.y + t.z) * (1.0 / 3.0);
 }
 
-// Square of the error of transmittance, integrated over the distance. The ends always stay.
+// Integral of the square of a difference that goes linearly from u to v.
+float squareOver(float u, float v, float distance) {
+    return (u * u + u * v + v * v) * distance * (1.0 / 3.0);
+}
+
+// Square of the error of transmittance, integrated over the distance, of the best of three ways to
+// do without a node: a line past it, its step at the node before, its step at the node behind. The
+// ends always stay.
 void updateError(uint k) {
     if (k == 0u || k + 1u >= nodeCount) {
         nodeError[min(k, kCapacity - 1u)] = 3.0e38;
         return;
     }
-    float z0 = nodeZ[k - 1u], z = nodeZ[k], z1 = nodeZ[k + 1u];
-    float f = z1 > z0 ? (z - z0) / (z1 - z0) : 0.0;
-    float t = meanTransmittance(mix(nodeBehind[k - 1u], nodeBefore[k + 1u], f));
-    float e0 = t - meanTransmittance(nodeBefore[k]), e1 = t - meanTransmittance(nodeBehind[k]);
-    nodeError[k] = e0 * e0 * (z - z0) + e1 * e1 * (z1 - z);
+    float z = nodeZ[k], left = z - nodeZ[k - 1u], right = nodeZ[k + 1u] - z;
+    float f = left + right > 0.0 ? left / (left + right) : 0.0;
+    vec3 first = nodeBehind[k - 1u], before = nodeBefore[k], behind = nodeBehind[k],
+         last = nodeBefore[k + 1u];
+    float tFirst = meanTransmittance(first), tBefore = meanTransmittance(before),
+          tBehind = meanTransmittance(behind), tLast = meanTransmittance(last);
+    float line = meanTransmittance(mix(first, last, f)),
+          early = meanTransmittance(mix(behind, last, f)),
+          late = meanTransmittance(mix(first, before, f));
+    float lineError = squareOver(0.0, line - tBefore, left) + squareOver(line - tBehind, 0.0, right);
+    float earlyError = squareOver(tBehind - tFirst, early - tBefore, left) +
+                       squareOver(early - tBehind, 0.0, right);
+    float lateError = squareOver(0.0, late - tBefore, left) +
+                      squareOver(late - tBehind, tBefore - tLast, right);
+    nodeError[k] = kSteps ? min(lineError, min(earlyError, lateError)) : lineError;
+    nodeWay[k] = !kSteps || lineError <= min(earlyError, lateError) ? kWayLine
+                 : earlyError <= lateError               ? kWayEarly
+                                                         : kWayLate;
 }
 
 void removeLeastNode() {
@@ -45,15 +68,21 @@ void removeLeastNode() {
             least = nodeError[i];
             k = i;
         }
+    if (nodeWay[k] == kWayEarly) nodeBehind[k - 1u] = nodeBehind[k];
+    if (nodeWay[k] == kWayLate) nodeBefore[k + 1u] = nodeBefore[k];
     --nodeCount;
     for (uint i = k; i < nodeCount; ++i) {
         nodeZ[i] = nodeZ[i + 1u];
         nodeBefore[i] = nodeBefore[i + 1u];
         nodeBehind[i] = nodeBehind[i + 1u];
         nodeError[i] = nodeError[i + 1u];
+        nodeWay[i] = nodeWay[i + 1u];
     }
+    // Errors hang on the next nodes, which may have moved too.
+    updateError(max(k, 2u) - 2u);
     updateError(k - 1u);
     updateError(k);
+    updateError(min(k + 1u, kCapacity - 1u));
 }
 
 // Before insertions, not between them: a node just inserted changes nothing yet and would go.
@@ -80,6 +109,7 @@ uint insertNode(float z) {
         nodeBefore[i] = nodeBefore[i - 1u];
         nodeBehind[i] = nodeBehind[i - 1u];
         nodeError[i] = nodeError[i - 1u];
+        nodeWay[i] = nodeWay[i - 1u];
     }
     nodeZ[slot] = z;
     nodeBefore[slot] = nodeBehind[slot] = depth;
