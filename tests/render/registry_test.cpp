@@ -35,7 +35,9 @@ class Registry : public RenderTest {
         for (const auto& [name, timeMs] : result.passes) EXPECT_GE(timeMs, 0) << name;
         for (const char* kind : {"dropped", "exhausted"}) {
             const auto counter = result.counters.find(kind);
-            if (counter != result.counters.end()) EXPECT_EQ(counter->second, 0u) << kind;
+            if (counter != result.counters.end()) {
+                EXPECT_EQ(counter->second, 0u) << kind;
+            }
         }
     }
 };
