@@ -86,7 +86,7 @@ void addCompare(CLI::App& app, Invocation& invocation) {
 void addBench(CLI::App& app, Invocation& invocation) {
     BenchArguments& a = invocation.bench;
     CLI::App* command = app.add_subcommand("bench", "Measure time, bytes and error of methods");
-    command->add_option("--scenes", a.scenes, "Names of `brume list scenes`, or scene files")
+    command->add_option("--scenes", a.scenes, "Names of `brume list scenes`, scene files, or `simulate`")
         ->delimiter(',');
     command->add_option("--methods", a.methods, "Names of `brume list methods`, or all; name:key=value:... for one with settings")
         ->delimiter(',');

@@ -71,6 +71,84 @@ TEST(Effect_Shapes, EachType_ReadsItsKeys) {
     EXPECT_EQ(disc.radius, 2);
 }
 
+TEST(Effect_Shapes, NewerKeys_AreRead) {
+    const auto emitter = [](const std::string& keys) { return parse(withEmitter(keys)).emitters[0]; };
+    const Emitter line = emitter(R"("shape":{"type":"line","from":[1,0,0],"to":[1,2,0]})");
+    EXPECT_EQ(line.position, dvec3(1, 0, 0));
+    EXPECT_EQ(line.size, dvec3(0, 2, 0));
+    const Emitter cone = emitter(
+        R"("shape":{"type":"cone","radius":1,"height":2,"births":"surface"},"velocity":"normal")");
+    EXPECT_EQ(cone.shape, EmitterShape::Cone);
+    EXPECT_EQ(cone.height, 2);
+    EXPECT_TRUE(cone.fromSurface);
+    EXPECT_EQ(cone.velocity, EmitterVelocity::Normal);
+    const Emitter moving = emitter(
+        R"("delay":2,"inherit":0.5,"path":[[0,[0,0,0]],[3,[1,2,3]]],"bursts":[{"time":1,"count":2,"repeat":9,"interval":0.5}])");
+    EXPECT_EQ(moving.delay, 2);
+    EXPECT_EQ(moving.inherit, 0.5);
+    ASSERT_EQ(moving.path.size(), 2u);
+    EXPECT_EQ(moving.path[1].second, dvec3(1, 2, 3));
+    EXPECT_EQ(moving.bursts[0].repeat, 9u);
+    EXPECT_EQ(moving.bursts[0].interval, 0.5);
+}
+
+TEST(Effect_Curves, TemperatureAndSpeed_AreRead) {
+    const Effect effect = parse(R"({"version":1,"medium":"m","emitters":[],
+        "overLife":{"temperature":[[0,1800],[1,1000]]},"bySpeed":{"radius":[[0,1],[5,2]]}})");
+    EXPECT_EQ(effect.temperature.keys[1].second, 1000);
+    EXPECT_EQ(effect.radiusBySpeed.keys[1], (std::pair<double, double>(5, 2)));
+    EXPECT_TRUE(effect.densityBySpeed.keys.empty());
+}
+
+TEST(Effect_Errors, NewerFaults_AreNamedAtTheirPlaces) {
+    const std::string start = "loading effect: e.json:1:";
+    EXPECT_EQ(parseMessage(withEmitter("\"path\":[[1,[0,0,0]],[1,[0,0,0]]]")),
+              start +
+                  "74: key \"emitters[0].path[1][0]\": is not above the time before it, times must "
+                  "rise");
+    EXPECT_EQ(parseMessage(withEmitter(
+                  "\"shape\":{\"type\":\"disc\",\"radius\":1,\"innerRadius\":2}")),
+              start +
+                  "101: key \"emitters[0].shape.innerRadius\": is above 'radius', at most that is "
+                  "allowed");
+    EXPECT_NE(parseMessage(withEmitter(
+                               "\"shape\":{\"type\":\"mesh\",\"file\":\"absent.glb\"}"))
+                  .find("key \"emitters[0].shape.file\": no such file"),
+              std::string::npos);
+    EXPECT_NE(parseMessage(R"({"version":1,"medium":"m","emitters":[],"capacity":1099511627776})")
+                  .find("key \"capacity\": is 1099511627776, must be an integer from 1 to 67108864"),
+              std::string::npos);
+}
+
+TEST(Effect_SubEmitters, Files_AreFollowedAndCyclesNamed) {
+    const test::TempFolder folder;
+    const auto write = [&](const char* name, const std::string& subEmitters) {
+        folder.write(name, "{\"version\":1,\"medium\":\"" + std::string(name) +
+                               "\",\"emitters\":[{\"lifetime\":1}],\n\"subEmitters\":[" +
+                               subEmitters + "]}");
+    };
+    write("a.json", R"({"on":"death","effect":"b.json","count":[1,2.5]})");
+    write("b.json", R"({"on":"way","effect":"c.json","rate":9})");
+    write("c.json", "");
+    const Effect effect = loadEffect(folder / "a.json", Log());
+    ASSERT_EQ(effect.subEmitters.size(), 1u);
+    EXPECT_EQ(effect.subEmitters[0].count, dvec2(1, 2.5));
+    const Effect& below = *effect.subEmitters[0].effect;
+    EXPECT_EQ(below.medium, "b.json");
+    EXPECT_EQ(below.subEmitters[0].trigger, SubEmitterTrigger::Way);
+    EXPECT_EQ(below.subEmitters[0].rate, 9);
+
+    write("c.json", R"({"on":"birth","effect":"a.json"})");
+    const std::string message = messageOf([&] { loadEffect(folder / "a.json", Log()); });
+    EXPECT_NE(message.find("c.json:2:39: key \"subEmitters[0].effect\": leads back to an effect"),
+              std::string::npos)
+        << message;
+    write("c.json", R"({"on":"way","effect":"b.json","rate":1,"count":3})");
+    EXPECT_NE(messageOf([&] { loadEffect(folder / "c.json", Log()); })
+                  .find("key \"subEmitters[0].count\": unknown key, known are effect, on, rate"),
+              std::string::npos);
+}
+
 TEST(Effect_Defaults, ShortestFile_HasThem) {
     const Effect effect = parse(R"({"version":1,"medium":"m","emitters":[{"lifetime":3}]})");
     EXPECT_EQ(effect.capacity, 10000u);

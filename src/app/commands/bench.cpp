@@ -8,6 +8,7 @@
 #include <bench/prepare.hpp>
 #include <bench/report.hpp>
 #include <bench/scenes.hpp>
+#include <bench/simulation_bench.hpp>
 #include <bench/shadow_measure.hpp>
 #include <core/error.hpp>
 #include <oit/method_info.hpp>
@@ -116,9 +117,22 @@ void benchShadows(const BenchArguments& arguments, const Log& log) {
             throw failure("benchmarking", row.scene + " with " + row.store, row.failure);
 }
 
+/// `--scenes simulate`: the particle simulator instead of pictures.
+void benchSimulation(const BenchArguments& arguments, const Log& log) {
+    constexpr std::uint32_t kParticles = 1'000'000;
+    const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
+    fmt::print("{} ({}), {} particles, median of {} ticks\n", device->info().name,
+               device->info().driver, kParticles, arguments.repeats);
+    fmt::print("{}", bench::formatTable(
+                         bench::measureSimulation(*device, kParticles, arguments.repeats)));
+    checkValidation(*device, log);
+}
+
 }  // namespace
 
 void runBench(const BenchArguments& arguments, const Log& log) {
+    if (arguments.scenes == std::vector<std::string>{"simulate"})
+        return benchSimulation(arguments, log);
     if (!arguments.shadows.empty()) return benchShadows(arguments, log);
     const std::vector<bench::NamedScene> scenes =
         findAllScenes(arguments, {"layers", "spheres_1k_48"}, log);
