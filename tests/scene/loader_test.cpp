@@ -48,7 +48,8 @@ TEST(Scene_Camera, BothTypes_AreRead) {
 TEST(Scene_Lights, EachType_ReadsItsKeys) {
     const auto lights = parse(R"({ "version": 1, "lights": [
       { "type": "ambient", "radiance": [0.2,0.3,0.4] },
-      { "type": "directional", "direction": [0,-2,0], "irradiance": [3,2,1], "shadow": "visibility" },
+      { "type": "directional", "direction": [0,-2,0], "irradiance": [3,2,1], "shadow": "visibility",
+        "shadowSettings": { "nodes": 16, "keep": true, "focusRadius": 2.5 } },
       { "type": "point", "position": [1,2,3], "intensity": [4,5,6], "radius": 0.5 },
       { "type": "spot", "position": [1,2,3], "direction": [0,0,-1], "intensity": [7,8,9],
         "innerAngle": 10, "outerAngle": 45 } ] })")
@@ -59,6 +60,8 @@ TEST(Scene_Lights, EachType_ReadsItsKeys) {
     EXPECT_EQ(lights[1].type, LightType::Directional);
     EXPECT_EQ(lights[1].direction, dvec3(0, -1, 0));
     EXPECT_EQ(lights[1].shadow, "visibility");
+    EXPECT_EQ(lights[1].shadowSettings,
+              (Settings{{"nodes", "16"}, {"keep", "true"}, {"focusRadius", "2.5"}}));
     EXPECT_EQ(lights[2].type, LightType::Point);
     EXPECT_EQ(lights[2].radius, 0.5);
     EXPECT_EQ(lights[2].shadow, "none");
