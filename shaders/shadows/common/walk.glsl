@@ -35,10 +35,6 @@ void walkBox(BoxData box, VolumeData volume, Ray ray, uint id) {
     vec2 t;
     if (!intersectBox(local.origin, local.direction, box.size, t)) return;
     vec3 extinction = media[volume.medium].extinction;
-    if (box.kind == kBoxHard) {
-        takePiece(t.x, t.y, extinction * (box.value * (t.y - t.x)), id);
-        return;
-    }
     float position = t.x, from = t.x;
     vec3 depth = vec3(0);
     for (int i = 0; i < 64 && position < t.y; ++i) {
@@ -46,18 +42,17 @@ void walkBox(BoxData box, VolumeData volume, Ray ray, uint id) {
         vec3 added = extinction * cellDensityLength(box, local, position, target);
         // Empty cells end a piece: it would smear what is behind them.
         bool isEmpty = max(added.x, max(added.y, added.z)) == 0.0;
-        if (isEmpty && from < position) {
-            takePiece(from, position, depth, id);
-            depth = vec3(0);
-        }
+        float end = isEmpty ? position : target;
         depth += added;
-        position = target;
-        bool isFull = max(depth.x, max(depth.y, depth.z)) >= kPieceDepth;
-        if (isFull || position >= t.y) takePiece(from, position, depth, id);
-        if (isEmpty || isFull) {
-            from = position;
+        bool isDone = isEmpty || target >= t.y ||
+                      max(depth.x, max(depth.y, depth.z)) >= kPieceDepth;
+        // One call: the including shader's function is long, and copied for each.
+        if (isDone && from < end) takePiece(from, end, depth, id);
+        if (isDone) {
+            from = target;
             depth = vec3(0);
         }
+        position = target;
     }
 }
 

@@ -79,10 +79,7 @@ void removeLeastNode() {
         nodeWay[i] = nodeWay[i + 1u];
     }
     // Errors hang on the next nodes, which may have moved too.
-    updateError(max(k, 2u) - 2u);
-    updateError(k - 1u);
-    updateError(k);
-    updateError(min(k + 1u, kCapacity - 1u));
+    for (uint i = max(k, 2u) - 2u; i <= k + 1u && i < nodeCount; ++i) updateError(i);
 }
 
 // Before insertions, not between them: a node just inserted changes nothing yet and would go.
