@@ -19,6 +19,7 @@
 #include <shaders/common/frame.h>
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/tile/tile.h>
+#include <shaders/shadows/common/maps.h>
 #include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/oit/tile/classify.comp.float64.hpp>
@@ -84,6 +85,12 @@ class Tile final : public OitMethod {
     bool canComposite() const {
         return !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
     }
+    /// Bricks one behind the other, in one go: not where each look at a light walks its casters, which
+    /// may take more loops than devices grant an invocation.
+    bool canLightVolumes() const {
+        return mNeeds.boxes && mNeeds.oneMedium && !mNeeds.oneSource &&
+               (mNeeds.shadowStores & shader::kStoreExact) == 0;
+    }
     void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
@@ -144,7 +151,7 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                          choose(spv::oit_tile_volumes_comp, spv::oit_tile_volumes_comp_float64),
                          images),
             pixels};
-    } else if (mNeeds.boxes && mNeeds.oneMedium) {
+    } else if (canLightVolumes()) {
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
                                         spv::oit_tile_lit_volumes_comp_float64),
@@ -308,7 +315,7 @@ void Tile::planTiles() {
             fewMix.push_back(tile);
         else if (classes[tile] == shader::kClassManyMix)
             manyMix.push_back(tile);
-        else if (classes[tile] == shader::kClassVolumes)
+        else if (classes[tile] == shader::kClassVolumes && mVolumes.pipeline)
             volumes.push_back(tile);
         else
             lists.push_back(tile);
