@@ -131,6 +131,8 @@ BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER StepParameters parameter
     outcome.hitRemaining = 0.0f;
     outcome.hitPosition = vec3(0.0f);
     outcome.hitVelocity = vec3(0.0f);
+    // In locals: glslang does not end where `precise` values go through members of an inout struct
+    // in a loop.
     BRUME_PRECISE vec3 from = start;
     BRUME_PRECISE vec3 to = particle.position;
     BRUME_PRECISE vec3 before = startVelocity;

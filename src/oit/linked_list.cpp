@@ -17,7 +17,7 @@
 //         Without shaderFloat64, media with optical depths of order 1 within 1e-6 of their distance
 //         (sheets, rims) are off by up to 1e-4.
 // Cost: 8 bytes per interval and surface, 52 more per surface, 16 per pixel and band; where lists
-//         need several rounds to resolve, 212 more per pixel and band.
+//         need several rounds to resolve, 216 more per pixel and band.
 #include <oit/pixel_lists.hpp>
 
 #include <numeric>
