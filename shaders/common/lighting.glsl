@@ -6,12 +6,12 @@
 #include "bindings.glsl"
 #include "phase.glsl"
 
-// Irradiance on a plane facing light `index` at `position`, shadowed; `travel`: direction of the
-// light there.
-vec3 lightIrradiance(LightData light, uint index, vec3 position, out vec3 travel) {
+// Irradiance on a plane facing a light at `position`, with nothing in between; `travel`: direction
+// of the light there.
+vec3 freeIrradiance(LightData light, vec3 position, out vec3 travel) {
     if (light.type == kLightDirectional) {
         travel = light.direction;
-        return light.color * transmittance(index, position);
+        return light.color;
     }
     vec3 offset = position - light.position;
     float distance2 = dot(offset, offset);
@@ -23,8 +23,12 @@ vec3 lightIrradiance(LightData light, uint index, vec3 position, out vec3 travel
                         0.0, 1.0);
         falloff = s * s;
     }
-    return light.color * (falloff / max(distance2, light.radius * light.radius)) *
-           transmittance(index, position);
+    return light.color * (falloff / max(distance2, light.radius * light.radius));
+}
+
+// The same, shadowed; `index`: of the light.
+vec3 lightIrradiance(LightData light, uint index, vec3 position, out vec3 travel) {
+    return freeIrradiance(light, position, travel) * transmittance(index, position);
 }
 
 // Radiance that a medium with albedo 1 scatters into `-rayDirection` per unit of optical depth.

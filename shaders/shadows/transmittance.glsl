@@ -52,6 +52,11 @@ vec3 transmittance(uint index, vec3 position) {
     return t;
 }
 
+// Whether the light's shadow has no error of its own.
+bool hasExactShadow(uint index) {
+    return lights[index].shadow != 0ul && ShadowMapRef(lights[index].shadow).map.store == kStoreExact;
+}
+
 // How far a ray may go from `position` while the light on media can be taken as smooth, m.
 float shadowStep(uint index, vec3 position, vec3 direction) {
     if (kShadowStores == 0u || lights[index].shadow == 0ul) return 1e30;

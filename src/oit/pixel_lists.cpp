@@ -137,7 +137,7 @@ gpu::ComputePipeline PixelLists::makeResolve() const {
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
                                {shader::kBindingResult, gpu::BindingType::StorageImage}}),
         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
-         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia},
+         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia ? mNeeds.media : 0},
         lightingConstants(mNeeds));
 }
 

@@ -22,14 +22,13 @@ RayMedium makeRayMedium(uint index) {
 RayMedium keptMedia[kKeptMedia];
 
 void keepMedia() {
-    for (uint i = 0u; i < kKeptMedia; ++i)
-        keptMedia[i] = makeRayMedium(min(i, max(frame.mediumCount, 1u) - 1u));
+    for (uint i = 0u; i < kMediumCount; ++i) keptMedia[i] = makeRayMedium(i);
 }
 
 RayMedium findRayMedium(uint index) {
-    if (!kFewMedia) return makeRayMedium(index);
+    if (kMediumCount == 0u) return makeRayMedium(index);
     RayMedium medium = keptMedia[0];
-    for (uint i = 1u; i < kKeptMedia; ++i)
+    for (uint i = 1u; i < kMediumCount; ++i)
         if (index == i) medium = keptMedia[i];
     return medium;
 }
@@ -48,7 +47,7 @@ RayMedium loadRayMedium(uvec2 entry) {
         density = spheres[index].density;
         tint = spheres[index].tint;
     }
-    iterations += kFewMedia ? 0u : frame.lightCount;
+    iterations += kMediumCount > 0u ? 0u : frame.lightCount;
     RayMedium medium = findRayMedium(mediumIndex);
     return RayMedium(medium.extinction * density, tint * density * medium.source);
 }

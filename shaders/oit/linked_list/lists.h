@@ -94,8 +94,9 @@ struct TileTotals {
     uint longest;
 };
 
-// Media that the resolve works out once per ray where nothing varies along it.
-BRUME_CONST uint kKeptMedia = 4u;
+// So many media the resolve loads once per ray, because on some devices a load from a buffer costs
+// as much as forty operations.
+BRUME_CONST uint kKeptMedia = 8u;
 
 // Own bindings.
 BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve

@@ -15,7 +15,7 @@ layout(constant_id = 2) const bool kVarying = true;       // densities or light 
 layout(constant_id = 3) const bool kVaryingLight = true;  // point or spot lights
 layout(constant_id = 4) const bool kColoured = true;      // extinction differs between channels
 layout(constant_id = 5) const bool kRounds = true;        // more than one: keep states
-layout(constant_id = 6) const bool kFewMedia = true;      // no more than kKeptMedia
+layout(constant_id = 6) const uint kMediumCount = kKeptMedia;  // 0: more than kKeptMedia
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };

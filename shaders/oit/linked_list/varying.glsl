@@ -5,8 +5,8 @@
 #ifndef BRUME_OIT_LINKED_LIST_VARYING_GLSL
 #define BRUME_OIT_LINKED_LIST_VARYING_GLSL
 #include "../../common/density.glsl"
+#include "../integrate/light_nodes.glsl"
 #include "../integrate/light_steps.glsl"
-#include "../integrate/quadrature.glsl"
 #include "surfaces.glsl"
 
 // The open media live in list[0 .. state.open), the first state.openBoxes of them boxes, each as
@@ -15,6 +15,8 @@
 // that is.
 //
 // A place on the ray is the distance of the last event, `position`, and an offset behind it.
+//
+// Loops over nodes are innermost and unrolled: arrays that others index leave the registers.
 
 void openMedium(uvec2 entry, bool isBox) {
     if (kBoxes && isBox) {
@@ -38,190 +40,230 @@ void closeMedium(uint index) {
     storeEntry(hole, loadEntry(state.open));
 }
 
-// Media are gathered in groups of this many: each light and medium is then loaded once per step
-// and not once per open interval.
-const uint kGroup = 4u;
+// Media of one phase function are lit together. A number for each function, in rising order; media
+// that scatter nothing have none.
+const float kNoPhase = 8.0;
 
-struct Gathered {
-    float density[kGroup * kNodeCount];  // summed over the open intervals of a medium
-    vec3 tinted[kGroup * kNodeCount];    // the same times their tints; kNodeCount * medium + node
-    float share;                         // as in Nodes
+// A medium of density 1.
+struct Matter {
+    vec3 extinction, scattering;  // 1/m
+    vec3 emission;                // radiance per metre
+    float phase;                  // key of its phase function
 };
 
-void addToGroup(inout Gathered sum, uint base, uint medium, float densities[kNodeCount],
-                vec3 tint) {
-    for (uint g = 0u; g < kGroup; ++g) {
-        float own = medium == base + g ? 1.0 : 0.0;
-        for (uint k = 0u; k < kNodeCount; ++k) {
-            sum.density[kNodeCount * g + k] += own * densities[k];
-            sum.tinted[kNodeCount * g + k] += (own * densities[k]) * tint;
-        }
-    }
+Matter loadMatter(uint index) {
+    MediumData medium = media[index];
+    vec3 scattering = medium.extinction * medium.albedo;
+    float key = medium.phase == kPhaseHenyeyGreenstein ? medium.g : 2.0 + float(medium.phase);
+    return Matter(medium.extinction, scattering, medium.emission,
+                  scattering == vec3(0) ? kNoPhase : key);
 }
 
-void gatherBox(inout Gathered sum, uint base, BoxData box, float from, float distance) {
-    VolumeData volume = volumes[box.volume];
-    LocalRay local = localRay(ray, box, volume, position);
-    BoxDensity density = makeBoxDensity(box, local, from + 0.5 * distance);
-    float densities[kNodeCount];
-    for (uint k = 0u; k < kNodeCount; ++k)
-        densities[k] = boxDensity(density, from + distance * kNodes[k]);
-    addToGroup(sum, base, volume.medium, densities, vec3(1));
+Matter keptMatter[kKeptMedia];
+
+void keepMatter() {
+    [[unroll]] for (uint i = 0u; i < kMediumCount; ++i) keptMatter[i] = loadMatter(i);
 }
 
-void gatherSphere(inout Gathered sum, uint base, SphereData sphere, float from, float distance) {
-    SphereDensity density = makeSphereDensity(ray, sphere, position);
-    float densities[kNodeCount];
-    for (uint k = 0u; k < kNodeCount; ++k)
-        densities[k] = sphereDensity(density, from + distance * kNodes[k]);
-    addToGroup(sum, base, sphere.medium, densities, sphere.tint);
-    float chord = max(density.behind + density.ahead, 1e-30);
-    sum.share = max(sum.share, density.smoothScale > 0.0 ? distance / chord : 0.0);
+Matter findMatter(uint index) {
+    if (kMediumCount == 0u) return loadMatter(index);
+    Matter matter = keptMatter[0];
+    [[unroll]] for (uint i = 1u; i < kMediumCount; ++i)
+        if (index == i) matter = keptMatter[i];
+    return matter;
 }
 
-// The open media over the step from offset `from`.
-Gathered gatherOpen(uint base, float from, float distance) {
-    Gathered sum;
-    for (uint g = 0u; g < kGroup * kNodeCount; ++g) {
-        sum.density[g] = 0.0;
-        sum.tinted[g] = vec3(0);
-    }
-    sum.share = 0.0;
-    if (kBoxes)
-        for (uint i = 0u; i < state.openBoxes; ++i)
-            gatherBox(sum, base, boxes[loadEntry(i).y & kIndexMask], from, distance);
-    for (uint i = kBoxes ? state.openBoxes : 0u; i < state.open; ++i)
-        gatherSphere(sum, base, spheres[loadEntry(i).y & kIndexMask], from, distance);
-    return sum;
+float phaseOfKey(float key, float cosTheta) {
+    return phaseFunction(key < 2.0 ? kPhaseHenyeyGreenstein : uint(key - 2.0), key, cosTheta);
 }
 
-// Radiance that the media of a group scatter towards the eye per unit of optical depth and albedo,
-// at the nodes: kNodeCount * medium + node; and what an isotropic medium would.
-struct Scattered {
-    vec3 group[kGroup * kNodeCount];
-    vec3 isotropic[kNodeCount];
+// What is open, at a place.
+struct OpenSet {
+    Real leaving;       // where the first of them ends,
+    uint leavingIndex;  // in the list
+    float plane;        // offset of the next voxel plane
+    float phase;        // smallest key
 };
 
-Scattered scatterGroup(uint base, float from, float distance) {
-    Scattered scattered;
-    uint phases[kGroup];
-    float cosines[kGroup];
-    for (uint g = 0u; g < kGroup; ++g) {
-        phases[g] = media[min(base + g, max(frame.mediumCount, 1u) - 1u)].phase;
-        cosines[g] = media[min(base + g, max(frame.mediumCount, 1u) - 1u)].g;
-    }
-    for (uint g = 0u; g < kGroup * kNodeCount; ++g) scattered.group[g] = frame.ambient;
-    for (uint k = 0u; k < kNodeCount; ++k) scattered.isotropic[k] = frame.ambient;
-    for (uint i = 0u; i < frame.lightCount; ++i) {
-        LightData light = lights[i];
-        vec3 irradiance, travel;
-        for (uint k = 0u; k < kNodeCount; ++k) {
-            float t = min(float(position) + from + distance * kNodes[k], 1e6);
-            // Directional light is the same at all nodes.
-            if (kVaryingLight || k == 0u)
-                irradiance = lightIrradiance(light, i, vec3(ray.origin) + rayDirection * t, travel);
-            float cosTheta = -dot(travel, rayDirection);
-            scattered.isotropic[k] += irradiance * phaseIsotropic();
-            for (uint g = 0u; g < kGroup; ++g)
-                scattered.group[kNodeCount * g + k] +=
-                    irradiance * phaseFunction(phases[g], cosines[g], cosTheta);
-        }
-    }
-    return scattered;
-}
-
-void addGroup(inout Nodes nodes, uint base, Gathered sum, Scattered scattered) {
-    for (uint g = 0u; g < kGroup; ++g) {
-        MediumData medium = media[min(base + g, max(frame.mediumCount, 1u) - 1u)];
-        vec3 scattering = medium.extinction * medium.albedo;
-        for (uint k = 0u; k < kNodeCount; ++k) {
-            uint i = kNodeCount * g + k;
-            nodes.extinction[k] += medium.extinction * sum.density[i];
-            nodes.source[k] += sum.tinted[i] * (scattering * scattered.group[i] + medium.emission);
-        }
-    }
-    nodes.share = max(nodes.share, sum.share);
-}
-
-// Extinction and source of everything that is open, at the nodes of the step from offset `from`.
-Nodes evaluateNodes(float from, float distance) {
-    Nodes nodes;
-    nodes.share = 0.0;
-    Scattered scattered = scatterGroup(0u, from, distance);
-    uint groups = (frame.mediumCount + kGroup - 1u) / kGroup;
-    iterations += groups * (1u + state.open + frame.lightCount) + shadowIterations;
-    shadowIterations = 0u;
-    for (uint k = 0u; k < kNodeCount; ++k) {
-        nodes.extinction[k] = nodes.source[k] = vec3(0);
-        if (kSurfaces) {
-            nodes.extinction[k] = state.solids.extinctionHi + state.solids.extinctionLo;
-            nodes.source[k] =
-                (state.solids.sourceHi + state.solids.sourceLo) * scattered.isotropic[k];
-        }
-    }
-    if (frame.mediumCount > 0u) {
-        addGroup(nodes, 0u, gatherOpen(0u, from, distance), scattered);
-        for (uint base = kGroup; base < frame.mediumCount; base += kGroup)
-            addGroup(nodes, base, gatherOpen(base, from, distance),
-                     scatterGroup(base, from, distance));
-    }
-    return nodes;
-}
-
-// Where the open medium ends that ends first.
-Real findNextEnd(out uint leaving) {
+OpenSet scanOpen() {
+    OpenSet set = OpenSet(Real(kFar), 0u, kFar, kNoPhase);
     uvec2 first = kNoEntry;
-    leaving = 0u;
     for (uint i = 0u; i < state.open; ++i) {
         uvec2 entry = loadEntry(i);
-        if (entry.x < first.x) first = entry, leaving = i;
+        set.leavingIndex = entry.x < first.x ? i : set.leavingIndex;
+        first = entry.x < first.x ? entry : first;
+        bool isBox = kBoxes && i < state.openBoxes;
+        uint index = entry.y & kIndexMask;
+        uint medium = isBox ? volumes[boxes[index].volume].medium : spheres[index].medium;
+        set.phase = min(set.phase, findMatter(medium).phase);
     }
-    iterations += state.open;
-    return first.x == kNoEntry.x ? Real(kFar) : intersectMedium(first).y;
-}
-
-// How far the next step may go, from state.offset to at most `last`.
-float limitStep(float last) {
-    float target = last;
     if (kBoxes)
         for (uint i = 0u; i < state.openBoxes; ++i) {
             BoxData box = boxes[loadEntry(i).y & kIndexMask];
             LocalRay local = localRay(ray, box, volumes[box.volume], position);
-            target = min(target, nextPlane(box, local, state.offset));
+            set.plane = min(set.plane, nextPlane(box, local, state.offset));
         }
-    iterations += state.openBoxes + (kVaryingLight ? frame.lightCount : 0u);
-    if (kVaryingLight)
-        target = min(target, state.offset + limitStepByLights(vec3(ray.origin), rayDirection,
-                                                       float(position) + state.offset));
-    return max(min(target, state.offset + state.stepLimit), state.offset);
+    iterations += state.open + state.openBoxes;
+    if (first.x != kNoEntry.x) set.leaving = intersectMedium(first).y;
+    return set;
 }
 
-// One step towards the offset `last`; true if that is reached.
-bool stepTowards(float last) {
-    if (state.open == 0u && state.solids.count <= 0) return true;
-    float target = limitStep(last), distance = target - state.offset;
-    if (distance > 0.0) {
-        float error = crossVarying(state.path, evaluateNodes(state.offset, distance), distance);
-        state.stepLimit = distance * scaleStep(error);
-        if (error > 1.0) return false;
-    } else {
-        state.stepLimit = kFar;
+// A step from an offset on.
+struct Step {
+    float from, distance;
+};
+
+struct Gathered {
+    vec3 extinction[kNodeCount];
+    vec3 emission[kNodeCount];    // radiance per metre
+    vec3 scattering[kNodeCount];  // of the media of one phase function, 1/m
+    float share;                  // as in Nodes
+    float plane;                  // offset of the next voxel plane behind the step
+    float nextPhase;              // the next larger key
+};
+
+void addMatter(inout Gathered sum, float phase, Matter matter, float densities[kNodeCount],
+               vec3 tint) {
+    vec3 emission = tint * matter.emission;
+    vec3 scattering = matter.phase == phase ? tint * matter.scattering : vec3(0);
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+        sum.extinction[k] += densities[k] * matter.extinction;
+        sum.emission[k] += densities[k] * emission;
+        sum.scattering[k] += densities[k] * scattering;
     }
-    state.offset = target;
-    return target >= last;
+    sum.nextPhase = matter.phase > phase ? min(matter.phase, sum.nextPhase) : sum.nextPhase;
+}
+
+void gatherBox(inout Gathered sum, float phase, BoxData box, Step step) {
+    VolumeData volume = volumes[box.volume];
+    LocalRay local = localRay(ray, box, volume, position);
+    BoxDensity density = makeBoxDensity(box, local, step.from + 0.5 * step.distance);
+    float densities[kNodeCount];
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+        densities[k] = boxDensity(density, step.from + step.distance * kNodes[k]);
+    addMatter(sum, phase, findMatter(volume.medium), densities, vec3(1));
+    sum.plane = min(sum.plane, nextPlane(box, local, step.from + step.distance));
+}
+
+void gatherSphere(inout Gathered sum, float phase, SphereData sphere, Step step) {
+    SphereDensity density = makeSphereDensity(ray, sphere, position);
+    float densities[kNodeCount];
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+        densities[k] = sphereDensity(density, step.from + step.distance * kNodes[k]);
+    addMatter(sum, phase, findMatter(sphere.medium), densities, sphere.tint);
+    float chord = max(density.behind + density.ahead, 1e-30);
+    sum.share = max(sum.share, density.smoothScale > 0.0 ? step.distance / chord : 0.0);
+}
+
+// The open media over a step; scattering only of those with this phase function.
+Gathered gatherOpen(float phase, Step step) {
+    Gathered sum;
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+        sum.extinction[k] = sum.emission[k] = sum.scattering[k] = vec3(0);
+    sum.share = 0.0;
+    sum.plane = kFar;
+    sum.nextPhase = kNoPhase;
+    if (kBoxes)
+        for (uint i = 0u; i < state.openBoxes; ++i)
+            gatherBox(sum, phase, boxes[loadEntry(i).y & kIndexMask], step);
+    for (uint i = kBoxes ? state.openBoxes : 0u; i < state.open; ++i)
+        gatherSphere(sum, phase, spheres[loadEntry(i).y & kIndexMask], step);
+    iterations += 1u + state.open;
+    return sum;
+}
+
+// What media of one phase function, and solids, which do so evenly, scatter towards the eye.
+struct Scatterers {
+    vec3 media[kNodeCount];  // 1/m
+    vec3 solids;
+    float phase;
+};
+
+void addLight(inout Nodes nodes, Scatterers scatterers, LightNodes light) {
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+        nodes.source[k] +=
+            light.irradiance[k] *
+            (scatterers.media[k] * phaseOfKey(scatterers.phase, light.cosTheta[k]) +
+             scatterers.solids * phaseIsotropic());
+}
+
+void addLights(inout Nodes nodes, Scatterers scatterers, Step step) {
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+        nodes.source[k] += (scatterers.media[k] + scatterers.solids) * frame.ambient;
+    LitStep lit = LitStep(vec3(ray.origin) + rayDirection * min(float(position) + step.from, 1e6),
+                          rayDirection, min(step.distance, 1e6));
+    bool isLit = scatterers.phase < kNoPhase || scatterers.solids != vec3(0);
+    uint lightCount = isLit ? frame.lightCount : 0u;
+    for (uint i = 0u; i < lightCount; ++i)
+        addLight(nodes, scatterers, makeLightNodes(lights[i], i, lit, kVaryingLight));
+    iterations += (1u + kShadowLookups) * lightCount + shadowIterations;
+    shadowIterations = 0u;
+}
+
+// Extinction and source of everything that is open, at the nodes of a step. `phase`: smallest key.
+// `plane`: offset of the next voxel plane behind the step.
+Nodes evaluateNodes(float phase, Step step, out float plane) {
+    Nodes nodes;
+    vec3 solidExtinction = kSurfaces ? state.solids.extinctionHi + state.solids.extinctionLo : vec3(0);
+    vec3 solids = kSurfaces ? state.solids.sourceHi + state.solids.sourceLo : vec3(0);
+    nodes.share = 0.0;
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) nodes.extinction[k] = nodes.source[k] = vec3(0);
+    for (bool isFirst = true;; isFirst = false) {
+        Gathered sum = gatherOpen(phase, step);
+        float first = isFirst ? 1.0 : 0.0;
+        [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+            nodes.extinction[k] += first * (sum.extinction[k] + solidExtinction);
+            nodes.source[k] += first * sum.emission[k];
+        }
+        nodes.share = sum.share;
+        plane = sum.plane;
+        addLights(nodes, Scatterers(sum.scattering, first * solids, phase), step);
+        if (sum.nextPhase >= kNoPhase) break;
+        phase = sum.nextPhase;
+    }
+    return nodes;
+}
+
+// Steps on to the offset `last`, or to the end of the round; the open set is that at the begin.
+void walkTo(OpenSet set, float last) {
+    while (iterations <= kIterationsPerRound) {
+        ++iterations;
+        Step step;
+        step.from = state.offset;
+        float target = max(min(min(set.plane, last), step.from + state.stepLimit), step.from);
+        step.distance = target - step.from;
+        float plane;
+        float error =
+            crossVarying(state.path, evaluateNodes(set.phase, step, plane), step.distance);
+        bool isDone = error <= 1.0;
+        state.stepLimit = step.distance > 0.0 ? step.distance * scaleStep(error) : kFar;
+        state.offset = isDone ? target : step.from;
+        set.plane = isDone ? plane : set.plane;
+        if (isOpaque(state.path) || state.offset >= last) break;
+    }
+}
+
+// How far from state.offset light can be taken as smooth.
+float limitByLights(OpenSet set) {
+    bool isLit = set.phase < kNoPhase || (kSurfaces && state.solids.sourceHi != vec3(0));
+    if (!kVaryingLight || !isLit) return kFar;
+    iterations += frame.lightCount;
+    return limitStepByLights(vec3(ray.origin), rayDirection, float(position) + state.offset);
 }
 
 // From where the state says to the end of the ray, or of the round.
 void walkVarying(Real limit) {
+    keepMatter();
     uvec2 enter = mediumEntry(), surface = surfaceEntry();
-    uint leavingIndex;
-    Real leaving = findNextEnd(leavingIndex);
     while (iterations <= kIterationsPerRound) {
         ++iterations;
+        OpenSet set = scanOpen();
         Real2 entering = enter.x == kNoEntry.x ? Real2(kFar) : intersectMedium(enter);
         Real cross = kSurfaces ? surfaceDistance(surface) : Real(kFar);
-        Real event = max(min(min(entering.x, leaving), min(cross, limit)), position);
-        bool isReached = stepTowards(float(event - position));
+        Real event = max(min(min(entering.x, set.leaving), min(cross, limit)), position);
+        float last = max(float(event - position), state.offset);
+        walkTo(set, min(last, state.offset + limitByLights(set)));
+        bool isReached = state.offset >= last;
         if (isOpaque(state.path) || (isReached && event >= limit)) {
             state.stage = kStageDone;
             break;
@@ -231,22 +273,18 @@ void walkVarying(Real limit) {
         state.offset = 0.0;
         state.stepLimit = kFar;
 
-        if (kSurfaces && cross < min(entering.x, leaving)) {
+        if (kSurfaces && cross < min(entering.x, set.leaving)) {
             crossSurface(state.path, state.solids, loadRecord(surface));
             ++state.surface;
             surface = surfaceEntry();
-            continue;
-        }
-        if (entering.x <= leaving) {
+        } else if (entering.x <= set.leaving) {
             bool isBox = (enter.y >> kKindShift) == kKindBox;
-            uvec2 open = uvec2(distanceKey(float(entering.y)), enter.y);
+            openMedium(uvec2(distanceKey(float(entering.y)), enter.y), isBox);
             ++state.medium;
             enter = mediumEntry();
-            openMedium(open, isBox);
         } else {
-            closeMedium(leavingIndex);
+            closeMedium(set.leavingIndex);
         }
-        leaving = findNextEnd(leavingIndex);
     }
 }
 
