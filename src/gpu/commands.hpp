@@ -11,9 +11,11 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 namespace brume::gpu {
+
+/// Of one pipeline, and colour attachments of one pass: what every Vulkan 1.3 device has.
+inline constexpr std::size_t kMaxBindings = 32, kMaxColors = 8;
 
 enum class LoadOp { Load, Clear, DontCare };
 
@@ -137,7 +139,8 @@ class Commands {
     Device* mDevice;
     VkCommandBuffer mHandle;
     const Pipeline* mPipeline = nullptr;
-    std::vector<Bound> mBound;
+    std::array<Bound, kMaxBindings> mBound;  // recording allocates nothing
+    std::size_t mBoundCount = 0;
     bool mIsDirty = false;
 };
 
