@@ -11,10 +11,16 @@ std::uint32_t firstParticleId(std::size_t effect) {
     return static_cast<std::uint32_t>(effect + 1) << 24;
 }
 
-EffectParticles::EffectParticles(gpu::Submitter& submitter, const PreparedScene& prepared)
+EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepared)
     : mPrepared(&prepared) {
     groupInstances();
-    simulate(submitter);
+    for (const std::vector<std::size_t>& roots : mRoots) {
+        std::vector<particles::EffectInstance> instances;
+        for (const std::size_t i : roots)
+            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i)});
+        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
+            device, prepared.scene.effects[roots[0]].effect, instances));
+    }
 }
 
 void EffectParticles::groupInstances() {
@@ -40,18 +46,16 @@ void EffectParticles::groupInstances() {
     }
 }
 
-void EffectParticles::simulate(gpu::Submitter& submitter) {
-    for (const std::vector<std::size_t>& roots : mRoots) {
-        std::vector<particles::EffectInstance> instances;
-        for (const std::size_t i : roots)
-            instances.push_back({mPrepared->scene.effects[i].seed, static_cast<std::uint32_t>(i)});
-        const scene::EffectInstance& first = mPrepared->scene.effects[roots[0]];
-        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
-            submitter.device(), first.effect, instances));
-        submitter.submitAndWait("simulate " + first.file.filename().string(),
-                                [&](gpu::Commands& commands) {
-                                    mSimulations.back()->recordAdvanceTo(commands, first.time);
-                                });
+void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks) {
+    for (std::size_t i = 0; i < mSimulations.size(); ++i) {
+        particles::GpuSimulation& simulation = *mSimulations[i];
+        const double time = mPrepared->scene.effects[mRoots[i][0]].time;
+        const double tickRate = simulation.effect().tickRate;
+        const std::uint64_t target = particles::ticksAt(time, tickRate);
+        if (target > simulation.tick() && target - simulation.tick() > maxTicks)
+            simulation.recordTicks(commands, maxTicks);
+        else
+            simulation.recordAdvanceTo(commands, time);
     }
 }
 

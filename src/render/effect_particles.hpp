@@ -14,8 +14,12 @@ namespace brume::render {
 
 class EffectParticles {
   public:
-    /// Simulates every effect of the scene up to its time.
-    EffectParticles(gpu::Submitter& submitter, const PreparedScene& scene);
+    /// Nothing is simulated yet; `scene` must outlive this.
+    EffectParticles(gpu::Device& device, const PreparedScene& scene);
+
+    /// Records the ticks of every effect up to its time in the scene: at most `maxTicks` of each, so
+    /// that what lags behind catches up over several calls.
+    void recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks = ~std::uint64_t{0});
 
     /// Pass "particles.appearance": fills the effects' slots of `spheres`. Nothing without effects.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
@@ -31,7 +35,6 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
-    void simulate(gpu::Submitter& submitter);
 
     const PreparedScene* mPrepared;
     std::vector<Place> mPlaces;  // by entry
