@@ -106,7 +106,8 @@ class Commands {
     void clearColorImage(const Image& image, const std::array<float, 4>& value);
     void clearColorImage(const Image& image, const std::array<std::uint32_t, 4>& value);
 
-    void beginLabel(const std::string& name);
+    void beginLabel(const char* name);
+    void beginLabel(const std::string& name) { beginLabel(name.c_str()); }
     void endLabel();
 
     void memoryBarrier(VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,

@@ -251,11 +251,11 @@ void Device::setName(VkObjectType type, std::uint64_t handle, const std::string&
     check(mFunctions->setObjectName(mDevice, &info), "naming object", name);
 }
 
-void Device::beginLabel(VkCommandBuffer commands, const std::string& name) const {
+void Device::beginLabel(VkCommandBuffer commands, const char* name) const {
     if (!mFunctions->beginLabel) return;
     VkDebugUtilsLabelEXT label{};
     label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
-    label.pLabelName = name.c_str();
+    label.pLabelName = name;
     mFunctions->beginLabel(commands, &label);
 }
 

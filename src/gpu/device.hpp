@@ -198,7 +198,7 @@ class Device {
     void check(VkResult result, const char* doing, const std::string& object) const;
     /// Gives a handle its name in debuggers and messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
-    void beginLabel(VkCommandBuffer commands, const std::string& name) const;
+    void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
     /// Memory for an object; refuses what does not fit, with sizes and limits in the message.
     Allocation allocate(const VkMemoryRequirements& needed, MemoryKind kind, bool hasAddress,

@@ -30,14 +30,14 @@ scene::Settings takeShadowSettings(scene::Settings& settings) {
 }  // namespace
 
 Composer::Composer(gpu::Device& device_, const PreparedScene& scene_, const Options& options_,
-                   const View& view)
+                   const View& view, EffectParticles* previous)
     : device(device_),
       prepared(scene_),
       options(options_),
       shuffleSeed(takeShuffle(options.settings)),
       shadowSettings(takeShadowSettings(options.settings)),
       scene(device, prepared, view),
-      effects(device, prepared),
+      effects(device, prepared, previous),
       opaque(device, scene.makeInputs().needs) {}
 
 void Composer::recordContent(gpu::Commands& commands) {

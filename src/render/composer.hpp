@@ -18,10 +18,10 @@ namespace brume::render {
 /// addMethod(). Everything that the constructor's arguments refer to must outlive it.
 class Composer {
   public:
-    /// Makes what does not depend on the particles: the scene's memory and the effects. Throws an
-    /// Error.
+    /// Makes what does not depend on the particles: the scene's memory and the effects, whose
+    /// simulations `previous` may hand over (may be null). Throws an Error.
     Composer(gpu::Device& device, const PreparedScene& scene, const Options& options,
-             const View& view);
+             const View& view, EffectParticles* previous = nullptr);
 
     /// Records the upload of the scene and its casters. Allocates what a frame keeps.
     void recordContent(gpu::Commands& commands);

@@ -182,12 +182,12 @@ void GpuScene::fillFrame() {
     const scene::Scene& scene = mPrepared->scene;
     const scene::CameraFrame& camera = mView.camera;
     dvec3 ambient(0);
-    mSceneLights.clear();
+    std::size_t count = 0;
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient)
             ambient += light.color;
         else
-            mSceneLights.push_back(light);
+            mSceneLights[count++] = light;
     }
     mData.lights.clear();
     for (std::size_t i = 0; i < mSceneLights.size(); ++i) {

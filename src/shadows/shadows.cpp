@@ -104,6 +104,7 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     const CasterChoice choice = store == "opaque"  ? CasterChoice::Opaque
                                 : store == "exact" ? CasterChoice::All
                                                    : CasterChoice::Translucent;
+    map->choice = choice;
     map->bounds = boundsOf(mCasters, choice);
     map->focus = own.focus;
     if (map->bounds.isEmpty()) return nullptr;
@@ -153,13 +154,18 @@ void Shadows::reserve(std::uint32_t pairs) {
     linkOpaqueMaps();
 }
 
-void Shadows::fit(std::span<const scene::Light> lights, const dvec3& origin) {
+void Shadows::fit(std::span<const scene::Light> lights, const dvec3& origin,
+                  const Box3& translucentBounds) {
     mCasters.origin = origin;
+    mCasters.translucentBounds = translucentBounds;
     for (std::size_t i = 0; i < mLights.size(); ++i)
-        for (Map* map : {mLights[i].opaque.get(), mLights[i].own.get()})
-            if (map)
-                fitMap(lights[i], map->bounds, map->focus, origin, map->data.filterRadius + 2,
-                       map->data);
+        for (Map* map : {mLights[i].opaque.get(), mLights[i].own.get()}) {
+            if (!map) continue;
+            const Box3 bounds = boundsOf(mCasters, map->choice);
+            if (!bounds.isEmpty()) map->bounds = bounds;
+            fitMap(lights[i], map->bounds, map->focus, origin, map->data.filterRadius + 2,
+                   map->data);
+        }
 }
 
 void Shadows::recordMaps(gpu::Commands& commands, gpu::UploadRing& ring) const {

@@ -40,9 +40,10 @@ class Shadows {
     /// Instead of prepare(), for hosts that cannot wait: room for so many pairs of tile and caster of
     /// each kind in each map. fit() and recordMaps() are due before the first frame.
     void reserve(std::uint32_t pairs);
-    /// Fits the maps to where the lights are now, in device coordinates relative to `origin`; the
-    /// number of lights and their stores stay.
-    void fit(std::span<const scene::Light> lights, const dvec3& origin);
+    /// Fits the maps to where lights and casters are now, in device coordinates relative to `origin`;
+    /// the number of lights and their stores stay.
+    void fit(std::span<const scene::Light> lights, const dvec3& origin,
+             const Box3& translucentBounds);
     /// Records the upload of what fit() has changed. Barriers are the caller's.
     void recordMaps(gpu::Commands& commands, gpu::UploadRing& ring) const;
     /// After reserve(): pairs that the newest finished frame had no room for.
@@ -67,6 +68,7 @@ class Shadows {
         std::unique_ptr<CasterBins> bins;
         shader::ShadowMap data{};
         gpu::Buffer buffer;
+        CasterChoice choice = CasterChoice::All;
         Box3 bounds;
         Focus focus;
         bool isKept = false;  // once built, while nothing moves
