@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/effect_particles.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace brume::render {
@@ -11,10 +12,48 @@ std::uint32_t firstParticleId(std::size_t effect) {
     return static_cast<std::uint32_t>(effect + 1) << 24;
 }
 
-EffectParticles::EffectParticles(gpu::Submitter& submitter, const PreparedScene& prepared)
+EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepared,
+                                 EffectParticles* previous)
     : mPrepared(&prepared) {
     groupInstances();
-    simulate(submitter);
+    for (const std::vector<std::size_t>& roots : mRoots) {
+        mKeys.push_back(keysOf(roots));
+        if (previous) {
+            mSimulations.push_back(previous->takeOver(mKeys.back()));
+            if (mSimulations.back()) continue;
+            mSimulations.pop_back();
+        }
+        std::vector<particles::EffectInstance> instances;
+        for (const std::size_t i : roots)
+            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i)});
+        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
+            device, prepared.scene.effects[roots[0]].effect, instances));
+    }
+}
+
+std::vector<std::uint64_t> EffectParticles::keysOf(const std::vector<std::size_t>& roots) const {
+    std::vector<std::uint64_t> keys;
+    for (const std::size_t i : roots) keys.push_back(mPrepared->scene.effects[i].key);
+    return keys;
+}
+
+std::unique_ptr<particles::GpuSimulation> EffectParticles::takeOver(
+    const std::vector<std::uint64_t>& keys) {
+    if (std::find(keys.begin(), keys.end(), 0u) != keys.end()) return nullptr;
+    for (std::size_t i = 0; i < mSimulations.size(); ++i)
+        if (mSimulations[i] && mKeys[i] == keys) return std::move(mSimulations[i]);
+    return nullptr;
+}
+
+std::uint64_t EffectParticles::ticksBehind() const {
+    std::uint64_t behind = 0;
+    for (std::size_t i = 0; i < mSimulations.size(); ++i) {
+        const std::uint64_t target =
+            particles::ticksAt(mPrepared->scene.effects[mRoots[i][0]].time,
+                               mSimulations[i]->effect().tickRate);
+        behind = std::max(behind, target - std::min(target, mSimulations[i]->tick()));
+    }
+    return behind;
 }
 
 void EffectParticles::groupInstances() {
@@ -40,18 +79,16 @@ void EffectParticles::groupInstances() {
     }
 }
 
-void EffectParticles::simulate(gpu::Submitter& submitter) {
-    for (const std::vector<std::size_t>& roots : mRoots) {
-        std::vector<particles::EffectInstance> instances;
-        for (const std::size_t i : roots)
-            instances.push_back({mPrepared->scene.effects[i].seed, static_cast<std::uint32_t>(i)});
-        const scene::EffectInstance& first = mPrepared->scene.effects[roots[0]];
-        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
-            submitter.device(), first.effect, instances));
-        submitter.submitAndWait("simulate " + first.file.filename().string(),
-                                [&](gpu::Commands& commands) {
-                                    mSimulations.back()->recordAdvanceTo(commands, first.time);
-                                });
+void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks) {
+    for (std::size_t i = 0; i < mSimulations.size(); ++i) {
+        particles::GpuSimulation& simulation = *mSimulations[i];
+        const double time = mPrepared->scene.effects[mRoots[i][0]].time;
+        const double tickRate = simulation.effect().tickRate;
+        const std::uint64_t target = particles::ticksAt(time, tickRate);
+        if (target > simulation.tick() && target - simulation.tick() > maxTicks)
+            simulation.recordTicks(commands, maxTicks);
+        else
+            simulation.recordAdvanceTo(commands, time);
     }
 }
 

@@ -14,11 +14,20 @@ namespace brume::render {
 
 class EffectParticles {
   public:
-    /// Simulates every effect of the scene up to its time.
-    EffectParticles(gpu::Submitter& submitter, const PreparedScene& scene);
+    /// Nothing is simulated yet; `scene` must outlive this. Takes simulations over from `previous`
+    /// (may be null) whose instances have the same keys.
+    EffectParticles(gpu::Device& device, const PreparedScene& scene,
+                    EffectParticles* previous = nullptr);
+
+    /// Records the ticks of every effect up to its time in the scene: at most `maxTicks` of each, so
+    /// that what lags behind catches up over several calls.
+    void recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks = ~std::uint64_t{0});
 
     /// Pass "particles.appearance": fills the effects' slots of `spheres`. Nothing without effects.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
+
+    /// Ticks that the effect farthest from its time is behind.
+    std::uint64_t ticksBehind() const;
 
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
     std::uint64_t bytes() const;
@@ -31,12 +40,14 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
-    void simulate(gpu::Submitter& submitter);
+    std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
+    std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
 
     const PreparedScene* mPrepared;
     std::vector<Place> mPlaces;  // by entry
     std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
+    std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
 };
 
 /// Id of the first particle of an effect; ids only order what begins at equal distances.

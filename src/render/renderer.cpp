@@ -2,15 +2,10 @@
 #include <core/error.hpp>
 #include <frame/frame_builder.hpp>
 #include <gpu/device.hpp>
-#include <oit/oit_method.hpp>
-#include <render/effect_particles.hpp>
-#include <render/gpu_scene.hpp>
+#include <render/composer.hpp>
 #include <render/needs.hpp>
-#include <render/opaque_pass.hpp>
 #include <render/renderer.hpp>
-#include <render/shadow_casters.hpp>
 #include <render/shadow_probe.hpp>
-#include <shadows/shadows.hpp>
 
 #include <fmt/format.h>
 
@@ -18,56 +13,32 @@
 #include <optional>
 
 namespace brume::render {
-namespace {
-
-/// Takes the settings that are the renderer's own out of those that go to the method.
-std::uint64_t takeShuffle(scene::Settings& settings) {
-    const auto found = settings.find("shuffle");
-    if (found == settings.end()) return 0;
-    scene::Settings own{*found};
-    settings.erase(found);
-    scene::SettingsReader reader(own, "setting up the renderer");
-    return static_cast<std::uint64_t>(reader.integer("shuffle", 0, 0, 1ll << 62));
-}
-
-/// Settings "shadow.<name>" go to the shadow maps of all lights, as "<name>".
-scene::Settings takeShadowSettings(scene::Settings& settings) {
-    const std::string prefix = "shadow.";
-    scene::Settings taken;
-    std::erase_if(settings, [&](const auto& setting) {
-        const auto& [key, value] = setting;
-        const bool isOurs = key.starts_with(prefix);
-        if (isOurs) taken[key.substr(prefix.size())] = value;
-        return isOurs;
-    });
-    return taken;
-}
-
-}  // namespace
 
 struct Renderer::Impl {
-    Impl(gpu::Device& device_, const PreparedScene& scene_, const Options& options_,
+    Impl(gpu::Device& device, const PreparedScene& prepared_, const Options& options_,
          const Log& log_)
-        : device(device_),
-          prepared(scene_),
+        : prepared(prepared_),
           options(options_),
           log(log_),
-          shuffle(takeShuffle(options.settings)),
-          shadowSettings(takeShadowSettings(options.settings)),
           submitter(device),
           pool(device),
           timers(device),
-          scene(submitter, prepared),
-          effects(submitter, prepared),
-          opaque(device, scene.makeInputs().needs) {
-        if (shuffle != 0) {
+          composer(device, prepared, options, makeView(prepared)) {
+        submitter.submitAndWait("upload scene", [&](gpu::Commands& commands) {
+            composer.recordContent(commands);
+        });
+        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+            composer.effects.recordSimulate(commands);
+        });
+        if (composer.shuffleSeed != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
-            scene.shuffleSpheres(submitter, shuffle);
-            areSpheresFinal = true;
+            composer.scene.shuffleSpheres(submitter, composer.shuffleSeed);
+            composer.areSpheresFinal = true;
         }
-        prepareShadows();
-        method = oit::createMethod(options.method, device, scene.makeInputs(), options.settings);
-        const std::uint64_t pixels = std::uint64_t{scene.extent().width} * scene.extent().height;
+        if (composer.hasShadows()) prepareShadows();
+        composer.addMethod();
+        const VkExtent2D extent = composer.scene.extent();
+        const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height;
         image = gpu::Buffer(device, {.name = "render.image_read",
                                      .bytes = 16 * pixels,
                                      .memory = gpu::MemoryKind::Readback});
@@ -77,38 +48,38 @@ struct Renderer::Impl {
                                                  .bytes = 4 * pixels,
                                                  .memory = gpu::MemoryKind::Readback});
         }
-        method->prepare(
+        composer.method->prepare(
             [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
     void prepareShadows() {
-        if (scene.makeInputs().needs.shadowStores == 0) return;
-        casters.emplace(submitter, prepared, scene, effects.readSpheres(submitter));
-        shadows.emplace(submitter, casters->casters(), scene.lights(), shadowSettings);
-        shadows->prepare(submitter, [this](const shadows::Shadows::DeclareFunction& declare) {
+        composer.addShadows(
+            findTranslucentBounds(prepared, composer.effects.readSpheres(submitter)));
+        submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
+            composer.casters->recordContent(commands);
+        });
+        shadows::Shadows& shadows = *composer.shadows;
+        shadows.prepare(submitter, [&](const shadows::Shadows::DeclareFunction& declare) {
             frame::FrameBuilder frame(pool);
-            const frame::BufferRef spheres = frame.importBuffer(scene.spheres());
-            if (!areSpheresFinal) effects.declare(frame, scene, spheres);
-            declare(frame, spheres);
+            declare(frame, composer.declareParticles(frame));
             submitter.submitAndWait("measure shadows",
                                     [&](gpu::Commands& commands) { frame.execute(commands); });
         });
-        scene.setShadows(submitter, shadows->addresses());
-        areShadowsReady = true;
+        composer.scene.setShadows(shadows.addresses());
+        gpu::UploadRing ring(composer.device, "render.upload", 1);
+        submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
+            composer.scene.recordView(commands, ring);
+        });
+        composer.areShadowsReady = true;
     }
 
     /// What every frame begins with: particles, background, opaque meshes, and room for the result.
     oit::Inputs declareInputs(frame::FrameBuilder& frame) {
-        oit::Inputs inputs = scene.makeInputs();
-        inputs.spheres = frame.importBuffer(scene.spheres());
-        if (!areSpheresFinal) effects.declare(frame, scene, inputs.spheres);
-        if (areShadowsReady) shadows->declare(frame, inputs.spheres);
-        opaque.declare(frame, scene, inputs);
-        inputs.result = frame.createImage({.name = "render.result",
-                                           .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                           .width = inputs.extent.width,
-                                           .height = inputs.extent.height,
-                                           .usage = 0});
+        oit::Inputs inputs = composer.scene.makeInputs();
+        inputs.spheres = composer.declareParticles(frame);
+        composer.declareShadows(frame, inputs.spheres);
+        composer.opaque.declare(frame, composer.scene, inputs);
+        composer.declareResult(frame, inputs);
         return inputs;
     }
 
@@ -121,9 +92,9 @@ struct Renderer::Impl {
 
     void declareFrame(frame::FrameBuilder& frame) {
         oit::Inputs inputs = declareInputs(frame);
-        method->declare(frame, inputs);
+        composer.method->declare(frame, inputs);
         if (options.triangleHashes) {
-            opaque.declareTriangles(frame, scene, inputs, triangles);
+            composer.opaque.declareTriangles(frame, composer.scene, inputs, triangles);
             frame.addReadback("render.triangles_read", frame.importBuffer(triangles),
                               trianglesRead);
         }
@@ -132,8 +103,8 @@ struct Renderer::Impl {
 
     Image readImage() const {
         const auto texels = image.mappedAs<vec4>();
-        Image samples(static_cast<int>(scene.extent().width),
-                      static_cast<int>(scene.extent().height));
+        const VkExtent2D extent = composer.scene.extent();
+        Image samples(static_cast<int>(extent.width), static_cast<int>(extent.height));
         for (std::size_t i = 0; i < samples.pixels.size(); ++i) samples.pixels[i] = vec3(texels[i]);
         const int n = prepared.scene.image.supersample;
         return n > 1 ? downsample(samples, n) : samples;
@@ -153,38 +124,23 @@ struct Renderer::Impl {
     }
 
     std::map<std::string, std::uint64_t> bytes() const {
-        std::map<std::string, std::uint64_t> kinds = method->bytes();
-        kinds["scene"] = scene.bytes();
+        std::map<std::string, std::uint64_t> kinds = composer.bytes();
         kinds["targets"] = pool.bytes();
-        kinds["particles"] = effects.bytes();
-        if (shadows) {
-            for (const auto& [kind, count] : shadows->bytes()) kinds[kind] = count;
-            kinds["shadowCasters"] = casters->bytes();
-        }
         std::uint64_t total = 0;
         for (const auto& [kind, count] : kinds) total += count;
         kinds["total"] = total;
-        kinds["perPixel"] = total / (std::uint64_t{scene.extent().width} * scene.extent().height);
+        const VkExtent2D extent = composer.scene.extent();
+        kinds["perPixel"] = total / (std::uint64_t{extent.width} * extent.height);
         return kinds;
     }
 
-    gpu::Device& device;
     const PreparedScene& prepared;
     Options options;
     Log log;
-    std::uint64_t shuffle;
-    scene::Settings shadowSettings;
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
-    GpuScene scene;
-    EffectParticles effects;
-    OpaquePass opaque;
-    std::optional<ShadowCasters> casters;
-    std::optional<shadows::Shadows> shadows;
-    bool areShadowsReady = false;
-    bool areSpheresFinal = false;  // no effect writes them any more
-    std::unique_ptr<oit::OitMethod> method;
+    Composer composer;
     gpu::Buffer image, triangles, trianglesRead;
 };
 
@@ -217,8 +173,8 @@ Result Renderer::renderFrame() {
         if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read"))
             result.timeMs += pass.timeMs;
     result.bytes = mImpl->bytes();
-    result.counters = mImpl->method->counters();
-    result.errorBound = mImpl->method->errorBound();
+    result.counters = mImpl->composer.method->counters();
+    result.errorBound = mImpl->composer.method->errorBound();
     if (result.counters["exhausted"] > 0)
         mImpl->log.warning(
             fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "
@@ -228,14 +184,14 @@ Result Renderer::renderFrame() {
 }
 
 std::vector<scene::MediumSphere> Renderer::readParticles() const {
-    return mImpl->effects.readSpheres(mImpl->submitter);
+    return mImpl->composer.effects.readSpheres(mImpl->submitter);
 }
 
 ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {
     std::vector<vec3> relative;
     for (const dvec3& position : positions)
-        relative.push_back(vec3(position - mImpl->scene.camera().position));
-    const ShadowProbe probe(mImpl->submitter, mImpl->scene.makeInputs().needs, light, relative);
+        relative.push_back(vec3(position - mImpl->composer.scene.camera().position));
+    const ShadowProbe probe(mImpl->submitter, mImpl->composer.scene.makeInputs().needs, light, relative);
     frame::FrameBuilder frame(mImpl->pool);
     probe.declare(frame, mImpl->declareInputs(frame));
     mImpl->submitter.submitAndWait("probe", [&](gpu::Commands& commands) {
@@ -249,8 +205,8 @@ ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3>
         else if (scope.name.starts_with("shadow.") && scope.name != "shadow.probe_read")
             samples.buildMs += scope.timeMs;
     }
-    if (!mImpl->shadows) return samples;
-    const shadows::Footprint footprint = mImpl->shadows->footprint(light);
+    if (!mImpl->composer.shadows) return samples;
+    const shadows::Footprint footprint = mImpl->composer.shadows->footprint(light);
     samples.bytesPerTexel = footprint.bytesPerTexel;
     samples.footprint = footprint.reach;
     samples.right = footprint.right;

@@ -158,6 +158,7 @@ struct EffectInstance {
     std::uint64_t seed = 0;
     double time = 0;  ///< seconds simulated before the frame
     bool isSubEmitter = false;
+    std::uint64_t key = 0;  ///< of a host: who it is and which revision of its effect; 0: nobody asks
 };
 
 struct RenderSettings {
