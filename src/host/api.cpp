@@ -189,8 +189,7 @@ BRUME_API BrumeResult brumeRemove(BrumeScene scene, BrumeId id) {
 }
 
 BRUME_API BrumeResult brumePrepare(BrumeScene scene, const BrumeView* view) {
-    return guard(
-        [&] { toScene("brumePrepare", scene).prepare(readStruct("brumePrepare", view)); });
+    return guard([&] { toScene("brumePrepare", scene).prepare(readStruct("brumePrepare", view)); });
 }
 
 BRUME_API BrumeResult brumeCmdSimulate(BrumeScene scene, VkCommandBuffer commands,

@@ -96,8 +96,8 @@ void Model::adoptScene(scene::Scene scene) {
 
 void Model::addVolumeOf(const scene::Volume& volume) {
     mVolumeIds.push_back(nextId());
-    volumes::VolumeGrid grid = readVolume(
-        mContext->readers(), volume, largestExtinction(mPrepared.scene.media[volume.medium]));
+    volumes::VolumeGrid grid = readVolume(mContext->readers(), volume,
+                                          largestExtinction(mPrepared.scene.media[volume.medium]));
     if (volume.representation == scene::VolumeRepresentation::Particles) {
         volumes::SphereOptions options;
         options.medium = volume.medium;

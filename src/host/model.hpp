@@ -73,9 +73,9 @@ class Model {
     render::PreparedScene mPrepared;
     render::Options mOptions;
     BrumeId mLastId = 0;
-    std::uint64_t mRevision = 0;   // of effects
+    std::uint64_t mRevision = 0;  // of effects
     std::uint64_t mStructure = 1, mValues = 1;
-    bool mIsFromFileOnly = true;   // nothing was added by calls
+    bool mIsFromFileOnly = true;                             // nothing was added by calls
     std::vector<BrumeId> mMediumIds, mLightIds, mVolumeIds;  // parallel to the scene's
     std::vector<BrumeId> mEffectIds;                         // likewise; those of sub-emitters, too
     std::vector<double> mEffectRadii;                        // bounds, m about their origins

@@ -20,9 +20,9 @@ namespace {
 dvec3 toVector(const char* call, const char* name, const double* v, double lo, double hi) {
     for (int i = 0; i < 3; ++i)
         if (!(v[i] >= lo && v[i] <= hi))
-            throw refuse(call, name,
-                         fmt::format("it is ({}, {}, {}), allowed are {} to {}", v[0], v[1], v[2],
-                                     lo, hi));
+            throw refuse(
+                call, name,
+                fmt::format("it is ({}, {}, {}), allowed are {} to {}", v[0], v[1], v[2], lo, hi));
     return {v[0], v[1], v[2]};
 }
 
@@ -306,8 +306,9 @@ void Model::remove(BrumeId id) {
         isFound = true;
     }
     if (!isFound)
-        throw refuse("brumeRemove", "id",
-                     fmt::format("the scene has no light, spheres, volume or effect with id {}", id));
+        throw refuse(
+            "brumeRemove", "id",
+            fmt::format("the scene has no light, spheres, volume or effect with id {}", id));
     mIsFromFileOnly = false;
     ++mStructure;
 }

@@ -96,9 +96,9 @@ void Scene::make(const Made& wanted) {
     mRenderFrame.reset();
     // Simulations go over to the new one; should it fail, they begin anew with the next.
     const std::unique_ptr<render::Composer> previous = std::move(mComposer);
-    auto composer = std::make_unique<render::Composer>(device, mModel.prepared(), mModel.options(),
-                                                       mView,
-                                                       previous ? &previous->effects : nullptr);
+    auto composer =
+        std::make_unique<render::Composer>(device, mModel.prepared(), mModel.options(), mView,
+                                           previous ? &previous->effects : nullptr);
     mStillBounds = mModel.stillBounds();
     if (composer->hasShadows()) {
         Box3 bounds = mStillBounds;
@@ -149,16 +149,46 @@ void Scene::declareFrames() {
     mBackdrop->declareComposite(frame, inputs, color);
 }
 
+// Runs what records into a command buffer. If that fails halfway, the buffer is discarded, and what
+// this and other scenes believe to be on the device is not.
+template <typename Work>
+void Scene::record(const char* call, const Work& work) {
+    mContext->requireFrame(call);
+    try {
+        mRecordedFrame = mContext->frame();
+        work();
+    } catch (const Error& error) {
+        // Bad arguments are found before anything is recorded.
+        if (error.kind() != ErrorKind::Input) mContext->forgetFrame();
+        throw;
+    } catch (...) {
+        mContext->forgetFrame();
+        throw;
+    }
+}
+
+void Scene::forgetFrame() {
+    if (mRecordedFrame != mContext->frame()) return;
+    mParticleFrame.reset();
+    mRenderFrame.reset();
+    mComposer.reset();
+    // The layouts that their images are believed to have were never reached.
+    mParticlePool = frame::ResourcePool(mContext->device());
+    mRenderPool = frame::ResourcePool(mContext->device());
+    mMade = {};
+}
+
 void Scene::prepare(const BrumeView& view) { build("brumePrepare", view); }
 
 void Scene::simulate(VkCommandBuffer commandBuffer, const BrumeStep& step) {
-    mContext->requireFrame("brumeCmdSimulate");
-    mModel.step(step.seconds);
-    mIsSimulationDue = true;
-    if (!isMade()) return;  // with the first view
-    gpu::Commands commands(mContext->device(), commandBuffer);
-    mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
-    mIsSimulationDue = false;
+    record("brumeCmdSimulate", [&] {
+        mModel.step(step.seconds);
+        mIsSimulationDue = true;
+        if (!isMade()) return;  // with the first view
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
+        mIsSimulationDue = false;
+    });
 }
 
 void Scene::recordContent(gpu::Commands& commands) {
@@ -193,26 +223,32 @@ void Scene::recordView(gpu::Commands& commands) {
 void Scene::recordParticles(gpu::Commands& commands) {
     recordContent(commands);
     recordView(commands);
-    if (mIsSimulationDue)
-        mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
+    if (mIsSimulationDue) mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
     mIsSimulationDue = false;
     mParticleFrame->execute(commands);
     mParticlesOf = mContext->frame();
 }
 
 void Scene::shadow(VkCommandBuffer commandBuffer, const BrumeView& view) {
-    mContext->requireFrame("brumeCmdShadow");
-    build("brumeCmdShadow", view);
-    gpu::Commands commands(mContext->device(), commandBuffer);
-    recordParticles(commands);
+    constexpr const char* kCall = "brumeCmdShadow";
+    record(kCall, [&] {
+        build(kCall, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordParticles(commands);
+    });
 }
 
 void Scene::render(VkCommandBuffer commandBuffer, const BrumeView& view) {
     constexpr const char* kCall = "brumeCmdRender";
-    mContext->requireFrame(kCall);
     checkHandles(kCall, "color", view.color);
     checkHandles(kCall, "depth", view.depth);
-    build(kCall, view);
+    record(kCall, [&] {
+        build(kCall, view);
+        recordRender(commandBuffer, view);
+    });
+}
+
+void Scene::recordRender(VkCommandBuffer commandBuffer, const BrumeView& view) {
     gpu::Commands commands(mContext->device(), commandBuffer);
     if (mParticlesOf != mContext->frame()) recordParticles(commands);
     mColor.rebind({view.color.image, view.color.view, view.color.layout});

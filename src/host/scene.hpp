@@ -25,7 +25,13 @@ class Scene {
     void render(VkCommandBuffer commands, const BrumeView& view);
     BrumeCounters counters() const;
 
+    /// What was recorded in this frame will not be submitted: all memory is made anew and effects
+    /// catch up.
+    void forgetFrame();
+
   private:
+    template <typename Work>
+    void record(const char* call, const Work& work);
     /// What memory and pipelines are made for.
     struct Made {
         std::uint64_t structure = 0;
@@ -43,6 +49,7 @@ class Scene {
     void recordContent(gpu::Commands& commands);
     void recordView(gpu::Commands& commands);
     void recordParticles(gpu::Commands& commands);
+    void recordRender(VkCommandBuffer commands, const BrumeView& view);
     bool isMade() const { return mComposer && mMade.structure == mModel.structure(); }
 
     Context* mContext;
@@ -61,6 +68,7 @@ class Scene {
     std::uint64_t mValues = 0;         // of the model, that are on the device
     std::uint64_t mParticlesOf = 0;    // frame whose particles and shadows are recorded
     std::uint64_t mUploadFrame = 0;    // frame that the ring is open for
+    std::uint64_t mRecordedFrame = 0;  // the last that anything was recorded in
     std::uint64_t mFrames = 0;
     bool mHasContent = false;
     bool mIsSimulationDue = true;

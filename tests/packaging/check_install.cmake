@@ -1,0 +1,60 @@
+# Installs to a prefix and builds a consumer with find_package and with pkg-config.
+# -DBUILD=build folder -DWORK=scratch folder -DCONSUMER=source folder -DCXX=compiler -DCC=compiler
+cmake_policy(VERSION 3.25)
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+function(expect_answer executable)
+  run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libdir} ${executable})
+  if(NOT out MATCHES "brume answers")
+    message(FATAL_ERROR "${executable} says: ${out}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+set(prefix ${WORK}/prefix)
+foreach(component runtime dev vdb)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
+endforeach()
+file(GLOB_RECURSE pc ${prefix}/*/brume.pc)
+cmake_path(GET pc PARENT_PATH pcdir)
+cmake_path(GET pcdir PARENT_PATH libdir)
+
+# Nothing of the source tree or of this machine may be in what is installed.
+file(GLOB_RECURSE texts ${prefix}/*.cmake ${prefix}/*.pc ${prefix}/*.h ${prefix}/*.hpp)
+foreach(text IN LISTS texts)
+  file(READ ${text} content)
+  if(content MATCHES "${CMAKE_CURRENT_LIST_DIR}" OR content MATCHES "brume_render|OpenImageIO")
+    message(FATAL_ERROR "${text} names what is not installed")
+  endif()
+endforeach()
+
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/cmake -DCMAKE_PREFIX_PATH=${prefix}
+    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_COMPILER=${CC})
+run(${CMAKE_COMMAND} --build ${WORK}/cmake)
+expect_answer(${WORK}/cmake/consumer)
+
+# A version that cannot fit is refused.
+file(WRITE ${WORK}/wrong/CMakeLists.txt
+  "cmake_minimum_required(VERSION 3.22)\nproject(wrong NONE)\nfind_package(brume 0.2 REQUIRED)\n")
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/wrong -B ${WORK}/wrong/build
+  -DCMAKE_PREFIX_PATH=${prefix} RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+if(result EQUAL 0)
+  message(FATAL_ERROR "find_package(brume 0.2) accepts 0.1")
+endif()
+
+set(ENV{PKG_CONFIG_PATH} ${pcdir})
+run(pkg-config --cflags --libs brume)
+separate_arguments(flags UNIX_COMMAND "${out}")
+run(${CC} -c ${CONSUMER}/plain.c -o ${WORK}/plain.o -I${prefix}/include)
+run(${CXX} -std=c++17 ${CONSUMER}/main.cpp ${WORK}/plain.o -o ${WORK}/by_pkg_config ${flags} -lbrume_vdb)
+expect_answer(${WORK}/by_pkg_config)
+
+# libbrume.so itself wants neither volumes nor images nor windows.
+file(GLOB library ${libdir}/libbrume.so.*.*.*)
+run(readelf -d ${library})
+if(out MATCHES "openvdb|OpenImageIO|glfw|libvulkan")
+  message(FATAL_ERROR "libbrume.so needs ${CMAKE_MATCH_0}")
+endif()
+message(STATUS "installed, found and used both ways")
