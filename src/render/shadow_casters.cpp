@@ -5,7 +5,10 @@
 #include <shaders/common/mesh.h>
 #include <shaders/shadows/common/maps.h>
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace brume::render {
 namespace {
@@ -18,11 +21,57 @@ void extend(Box3& bounds, const scene::MediumSphere& sphere) {
     bounds.extend(sphere.center + dvec3(sphere.radius));
 }
 
+/// As unpackNormal() of shaders/shadows/common/casters.glsl reads it.
+std::uint32_t packNormal(const dvec3& unit) {
+    const dvec3 n = unit / (std::abs(unit.x) + std::abs(unit.y) + std::abs(unit.z));
+    dvec2 p(n.x, n.y);
+    if (n.z < 0)
+        p = {std::copysign(1 - std::abs(n.y), n.x), std::copysign(1 - std::abs(n.x), n.y)};
+    return glm::packSnorm2x16(vec2(p));
+}
+
+/// Unit, in the world; the triangle's own where the mesh has none.
+dvec3 worldNormal(const scene::Mesh& mesh, const dmat3& normalMatrix, std::uint32_t index,
+                  const dvec3& ofTriangle) {
+    const dvec3 normal =
+        mesh.normals.empty() ? dvec3(0) : normalMatrix * dvec3(mesh.normals[index]);
+    const double length = glm::length(normal);
+    if (length > 0 && std::isfinite(length)) return normal / length;
+    const double area = glm::length(ofTriangle);
+    return area > 0 ? ofTriangle / area : dvec3(0, 0, 1);
+}
+
 bool castsColour(const scene::Material& material) {
     if (material.type == scene::MaterialType::Solid)
         return !isGrey(material.absorption + material.scattering);
     return material.type == scene::MaterialType::Thin &&
            (material.colorTexture || !isGrey(material.transmission));
+}
+
+/// The triangle whose indices begin at `first`, relative to `origin`; without an id.
+shader::ShadowTriangle makeTriangle(const scene::Mesh& mesh, std::size_t first,
+                                    const dmat3& normalMatrix, const dvec3& origin) {
+    std::uint32_t indices[3], normals[3];
+    dvec3 corners[3];
+    for (int c = 0; c < 3; ++c) {
+        indices[c] = mesh.indices[first + c];
+        corners[c] =
+            transformPoint(mesh.worldFromObject, dvec3(mesh.positions[indices[c]])) - origin;
+    }
+    const dvec3 ofTriangle = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    for (int c = 0; c < 3; ++c)
+        normals[c] = packNormal(worldNormal(mesh, normalMatrix, indices[c], ofTriangle));
+    return {.a = vec3(corners[0]),
+            .b = vec3(corners[1]),
+            .c = vec3(corners[2]),
+            .uvA = mesh.uvs[indices[0]],
+            .uvB = mesh.uvs[indices[1]],
+            .uvC = mesh.uvs[indices[2]],
+            .normalA = normals[0],
+            .normalB = normals[1],
+            .normalC = normals[2],
+            .material = mesh.material,
+            .id = 0};
 }
 
 }  // namespace
@@ -81,27 +130,16 @@ void ShadowCasters::makeTriangles() {
         for (const scene::Mesh& mesh : mPrepared->scene.meshes) {
             const scene::Material& material = mPrepared->scene.materials[mesh.material];
             const bool isOpaque = material.type == scene::MaterialType::Opaque;
+            const dmat3 normalMatrix = glm::transpose(glm::inverse(dmat3(mesh.worldFromObject)));
             if (castsColour(material)) mCasters.isColoured = true;
             for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3, ++id) {
                 if (isOpaque != wantsOpaque) continue;
-                vec3 corners[3];
-                vec2 uvs[3];
-                for (int c = 0; c < 3; ++c) {
-                    const std::uint32_t index = mesh.indices[i + c];
-                    const dvec3 world =
-                        transformPoint(mesh.worldFromObject, dvec3(mesh.positions[index]));
-                    if (isOpaque) mCasters.opaqueBounds.extend(world);
-                    corners[c] = vec3(world - mCasters.origin);
-                    uvs[c] = mesh.uvs[index];
-                }
-                mTriangleData.push_back({.a = corners[0],
-                                         .b = corners[1],
-                                         .c = corners[2],
-                                         .uvA = uvs[0],
-                                         .uvB = uvs[1],
-                                         .uvC = uvs[2],
-                                         .material = mesh.material,
-                                         .id = id});
+                shader::ShadowTriangle& triangle = mTriangleData.emplace_back(
+                    makeTriangle(mesh, i, normalMatrix, mCasters.origin));
+                triangle.id = id;
+                if (!isOpaque) continue;
+                for (const vec3& corner : {triangle.a, triangle.b, triangle.c})
+                    mCasters.opaqueBounds.extend(dvec3(corner) + mCasters.origin);
             }
         }
         if (wantsOpaque)
@@ -122,6 +160,7 @@ void ShadowCasters::makeMaterials(gpu::Device& device) {
         data.coverage = static_cast<float>(
             material.type == scene::MaterialType::Thin ? material.coverage : 1.0);
         data.alphaCutoff = static_cast<float>(material.alphaCutoff);
+        data.ior = static_cast<float>(material.ior);
         const scene::Texture* texture = material.colorTexture.get();
         const bool usesTexture =
             texture && (material.type == scene::MaterialType::Thin || material.alphaCutoff >= 0);

@@ -20,6 +20,7 @@ struct MapSettings {
     std::uint32_t opaqueFilter = 0;
     Focus focus;
     bool isKept = false;
+    bool hasCaustics = false;
 };
 
 /// Takes the maps' own settings out of those that go to the store.
@@ -42,6 +43,7 @@ MapSettings takeMapSettings(scene::Settings& settings, std::uint32_t faceCount) 
                         reader.number("focusZ", 0, -1e9, 1e9)};
     map.focus.radius = reader.number("focusRadius", 0, 0, 1e9);
     map.isKept = reader.boolean("keep", false);
+    map.hasCaustics = reader.boolean("caustics", false);
     return map;
 }
 
@@ -67,6 +69,8 @@ std::span<const scene::SettingInfo> listMapSettings() {
         {"focusY", "m", "0", "likewise"},
         {"focusZ", "m", "0", "likewise"},
         {"focusRadius", "m", "0", "how far that part reaches; 0: all casters; beyond it is light"},
+        {"caustics", "true, false", "false",
+         "glass gathers light where it stands across it (not with exact)"},
         {"keep", "true, false", "false", "build once and keep while the scene does not move"}};
     return kSettings;
 }
@@ -99,6 +103,11 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     data.faceCount = faceCountFor(light);
     const MapSettings own = takeMapSettings(settings, data.faceCount);
     map->isKept = own.isKept;
+    if (own.hasCaustics && store == "exact")
+        throw inputError(
+            kDoing, "caustics",
+            "not made by exact, which follows straight rays; allowed with the other stores");
+    data.hasCaustics = own.hasCaustics;
     map->store = createStore(
         store, *mDevice, {mCasters.isColoured, mCasters.translucentTriangleCount > 0}, settings);
     const CasterChoice choice = store == "opaque"  ? CasterChoice::Opaque
