@@ -14,6 +14,12 @@ install(TARGETS libbrume_vdb EXPORT brumeTargets
 install(TARGETS brume RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/brume DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT dev)
+# Includes for shaders of hosts, with what they include, at the same places to each other.
+foreach(folder host common shadows gpu)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/${folder}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brume/glsl COMPONENT dev
+    FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
+endforeach()
 install(EXPORT brumeTargets NAMESPACE brume:: DESTINATION ${brume_cmake_dir} COMPONENT dev)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/src/host/brumeConfig.cmake.in
   ${CMAKE_BINARY_DIR}/brumeConfig.cmake INSTALL_DESTINATION ${brume_cmake_dir})
@@ -39,6 +45,7 @@ set(CPACK_PACKAGE_CONTACT "The Brume authors <brume@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Particle and volumetric effects with order-independent transparency")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL runtime dev vdb tools)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)

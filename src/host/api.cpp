@@ -213,6 +213,32 @@ BRUME_API BrumeResult brumeCmdRender(BrumeScene scene, VkCommandBuffer commands,
     });
 }
 
+BRUME_API BrumeResult brumeCmdBeginLayers(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view) {
+    return record("brumeCmdBeginLayers", scene, commands, [&](brume::host::Scene& s) {
+        s.beginLayers(commands, readStruct("brumeCmdBeginLayers", view));
+    });
+}
+
+BRUME_API BrumeResult brumeCmdEndLayers(BrumeScene scene, VkCommandBuffer commands) {
+    return record("brumeCmdEndLayers", scene, commands,
+                  [&](brume::host::Scene& s) { s.endLayers(commands); });
+}
+
+BRUME_API BrumeResult brumeGetShadow(BrumeScene scene, BrumeId light, VkDeviceAddress* address) {
+    if (address) *address = 0;
+    return guard([&] {
+        if (!address) throw refuse("brumeGetShadow", "address", "it is null");
+        *address = toScene("brumeGetShadow", scene).shadowOf(light);
+    });
+}
+
+BRUME_API BrumeId brumeGetLight(BrumeScene scene, uint32_t index) {
+    BrumeId id = 0;
+    guard([&] { id = toScene("brumeGetLight", scene).model().light(index); });
+    return id;
+}
+
 BRUME_API BrumeResult brumeGetCounters(BrumeScene scene, BrumeCounters* counters) {
     return guard([&] {
         const BrumeCounters ours = toScene("brumeGetCounters", scene).counters();

@@ -114,7 +114,17 @@ void Model::addVolumeOf(const scene::Volume& volume) {
 void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
     const scene::RenderSettings& own = mPrepared.scene.render;
     mOptions.settings = readSettings(kCreate, info.settings);
-    if (info.method) {
+    mOptions.hostLayers = info.hostLayers != 0;
+    if (mOptions.hostLayers) {
+        mOptions.method = info.method ? info.method : "weighted";
+        for (const char* key : {"precision", "depthPower", "weightDistance"})
+            if (mOptions.method != "weighted" || mOptions.settings.contains(key))
+                throw refuse(
+                    kCreate, "hostLayers",
+                    fmt::format("with method {} and a setting {}, allowed is weighted with "
+                                "its default weights",
+                                mOptions.method, key));
+    } else if (info.method) {
         mOptions.method = info.method;
     } else if (needsMeasuring(own.method)) {
         mOptions.method = kFallbackMethod;

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ class Model {
     BrumeId addMedium(const BrumeMedium& medium);
     void setMedium(BrumeId id, const BrumeMedium& medium);
     BrumeId findMedium(const char* name) const;
+    /// Number `index`; 0 beyond the last.
+    BrumeId light(std::uint32_t index) const {
+        return index < mLightIds.size() ? mLightIds[index] : 0;
+    }
+    /// The place of a light among those of the shaders' array; none for ambient ones.
+    std::optional<std::size_t> shaderLight(BrumeId id) const;
     BrumeId addLight(const BrumeLight& light);
     void setLight(BrumeId id, const BrumeLight& light);
     BrumeId addSpheres(BrumeId medium, std::uint32_t count, const BrumeSphere* spheres);

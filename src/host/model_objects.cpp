@@ -164,6 +164,15 @@ void Model::setLight(BrumeId id, const BrumeLight& light) {
     ++mValues;
 }
 
+std::optional<std::size_t> Model::shaderLight(BrumeId id) const {
+    const std::size_t place = placeOf(mLightIds, id, "brumeGetShadow", "light");
+    const auto& lights = mPrepared.scene.lights;
+    if (lights[place].type == scene::LightType::Ambient) return std::nullopt;
+    return static_cast<std::size_t>(
+        std::count_if(lights.begin(), lights.begin() + place,
+                      [](const auto& l) { return l.type != scene::LightType::Ambient; }));
+}
+
 BrumeId Model::addSpheres(BrumeId medium, std::uint32_t count, const BrumeSphere* spheres) {
     constexpr const char* kCall = "brumeAddSpheres";
     const std::uint32_t index = mediumOf(kCall, medium);

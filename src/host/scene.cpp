@@ -244,20 +244,58 @@ void Scene::render(VkCommandBuffer commandBuffer, const BrumeView& view) {
     checkHandles(kCall, "depth", view.depth);
     record(kCall, [&] {
         build(kCall, view);
-        recordRender(commandBuffer, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        if (!recordRender(commands, view)) mRenderFrame->resume(commands);
+        finishRender(commands);
     });
 }
 
-void Scene::recordRender(VkCommandBuffer commandBuffer, const BrumeView& view) {
-    gpu::Commands commands(mContext->device(), commandBuffer);
+void Scene::beginLayers(VkCommandBuffer commandBuffer, const BrumeView& view) {
+    constexpr const char* kCall = "brumeCmdBeginLayers";
+    if (!mModel.options().hostLayers)
+        throw refuse(kCall, "scene", "it was not created with hostLayers");
+    checkHandles(kCall, "color", view.color);
+    checkHandles(kCall, "depth", view.depth);
+    record(kCall, [&] {
+        build(kCall, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordRender(commands, view);
+    });
+}
+
+void Scene::endLayers(VkCommandBuffer commandBuffer) {
+    constexpr const char* kCall = "brumeCmdEndLayers";
+    if (!mRenderFrame || !mRenderFrame->isPaused())
+        throw refuse(kCall, "scene", "brumeCmdBeginLayers() was not called before");
+    record(kCall, [&] {
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mRenderFrame->resume(commands);
+        finishRender(commands);
+    });
+}
+
+bool Scene::recordRender(gpu::Commands& commands, const BrumeView& view) {
     if (mParticlesOf != mContext->frame()) recordParticles(commands);
-    mColor.rebind({view.color.image, view.color.view, view.color.layout});
-    mDepth.rebind({view.depth.image, view.depth.view, view.depth.layout});
+    mColorLayout = view.color.layout;
+    mDepthLayout = view.depth.layout;
+    mColor.rebind({view.color.image, view.color.view, mColorLayout});
+    mDepth.rebind({view.depth.image, view.depth.view, mDepthLayout});
     mBackdrop->setPush(mPush);
-    mRenderFrame->execute(commands);
-    restoreLayout(commands, mColor, view.color.layout);
-    restoreLayout(commands, mDepth, view.depth.layout);
+    return mRenderFrame->execute(commands);
+}
+
+void Scene::finishRender(gpu::Commands& commands) {
+    restoreLayout(commands, mColor, mColorLayout);
+    restoreLayout(commands, mDepth, mDepthLayout);
     ++mFrames;
+}
+
+VkDeviceAddress Scene::shadowOf(BrumeId light) const {
+    const std::optional<std::size_t> index = mModel.shaderLight(light);
+    if (!isMade())
+        throw refuse("brumeGetShadow", "scene",
+                     "it has no memory yet, call brumeCmdShadow() first");
+    return index && mComposer->shadows ? mComposer->shadows->addresses()[*index] : 0;
 }
 
 BrumeCounters Scene::counters() const {

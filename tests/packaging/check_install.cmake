@@ -2,7 +2,10 @@
 # -DBUILD=build folder -DWORK=scratch folder -DCONSUMER=source folder -DCXX=compiler -DCC=compiler
 cmake_policy(VERSION 3.25)
 function(run)
-  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${result}\n${out}")
+  endif()
   set(out "${out}" PARENT_SCOPE)
 endfunction()
 function(expect_answer executable)
@@ -34,6 +37,24 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/cmake -DCMAKE_PREFIX_PATH=${prefi
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_COMPILER=${CC})
 run(${CMAKE_COMMAND} --build ${WORK}/cmake)
 expect_answer(${WORK}/cmake/consumer)
+
+# Shaders of hosts find the includes.
+file(WRITE ${WORK}/shader.comp "#version 460
+#extension GL_GOOGLE_include_directive : require
+#include \"host/brume_shadow.glsl\"
+layout(push_constant) uniform Push { uint64_t shadow; };
+layout(binding = 0) buffer Result { vec4 result; };
+void main() { result = vec4(brumeTransmittance(shadow, vec3(1)), 1.0); }
+")
+file(WRITE ${WORK}/shader.frag "#version 460
+#extension GL_GOOGLE_include_directive : require
+#include \"host/brume_store.glsl\"
+void main() { brumeStore(vec3(0), vec3(0.5), 2.0); }
+")
+foreach(stage comp frag)
+  run(${GLSLANG} -V --quiet --target-env vulkan1.3 -I${prefix}/include/brume/glsl
+      ${WORK}/shader.${stage} -o ${WORK}/${stage}.spv)
+endforeach()
 
 # A version that cannot fit is refused.
 file(WRITE ${WORK}/wrong/CMakeLists.txt
