@@ -161,6 +161,14 @@ typedef struct BrumeContextCreateInfo {
     void* readUser; /**< passed to the readers */
 } BrumeContextCreateInfo;
 
+/** What a scene's brumeCmdDraw() is drawn into. */
+typedef enum BrumeInside {
+    BRUME_INSIDE_NOTHING = 0,     /**< brumeCmdDraw() is not used */
+    BRUME_INSIDE_COLOR = 1,       /**< rendering with the view's colour format alone */
+    BRUME_INSIDE_COLOR_DEPTH = 2, /**< and with its depth format, neither tested nor written */
+    BRUME_INSIDE_MAX_ENUM = 0x7fffffff
+} BrumeInside;
+
 /** Where a scene comes from; all may be null for an empty one. */
 typedef struct BrumeSceneCreateInfo {
     uint32_t structSize; /**< set by BRUME_INIT */
@@ -170,6 +178,8 @@ typedef struct BrumeSceneCreateInfo {
     const char* directory; /**< what paths in `text` are relative to; null: the current directory */
     const char* method;    /**< null: the scene's own, or "sorted" where that is not for hosts */
     const char* settings;  /**< of the method, "key=value key=value"; may be null */
+    BrumeInside inside; /**< for brumeCmdDraw(); the method is "sorted" or "unordered" then */
+    uint32_t reserved; /**< 0 */
 } BrumeSceneCreateInfo;
 
 /** Phase functions. */
@@ -367,6 +377,14 @@ BRUME_API BrumeResult brumeCmdBeginLayers(BrumeScene scene, VkCommandBuffer comm
                                           const BrumeView* view);
 /** Ends the rendering that brumeCmdBeginLayers() has begun and composes the image. */
 BRUME_API BrumeResult brumeCmdEndLayers(BrumeScene scene, VkCommandBuffer commands);
+
+/** As brumeCmdRender(), but all except for the drawing itself: for scenes with `inside` set. The
+ *  viewport begins at 0, 0. Outside of rendering, after the opaque scene. */
+BRUME_API BrumeResult brumeCmdPrepareDraw(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view);
+/** Draws into the host's rendering, over the colours that are there. Viewport and scissor are the
+ *  host's: those of the view of brumeCmdPrepareDraw(), once after each. */
+BRUME_API BrumeResult brumeCmdDraw(BrumeScene scene, VkCommandBuffer commands);
 
 /** The shadow map of a light for brume_shadow.glsl, 0 where it has none. Valid for commands after
  *  brumeCmdShadow() until the scene's memory is made anew. `light`: an id; of a scene file's lights:

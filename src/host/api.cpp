@@ -225,6 +225,18 @@ BRUME_API BrumeResult brumeCmdEndLayers(BrumeScene scene, VkCommandBuffer comman
                   [&](brume::host::Scene& s) { s.endLayers(commands); });
 }
 
+BRUME_API BrumeResult brumeCmdPrepareDraw(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view) {
+    return record("brumeCmdPrepareDraw", scene, commands, [&](brume::host::Scene& s) {
+        s.prepareDraw(commands, readStruct("brumeCmdPrepareDraw", view));
+    });
+}
+
+BRUME_API BrumeResult brumeCmdDraw(BrumeScene scene, VkCommandBuffer commands) {
+    return record("brumeCmdDraw", scene, commands,
+                  [&](brume::host::Scene& s) { s.draw(commands); });
+}
+
 BRUME_API BrumeResult brumeGetShadow(BrumeScene scene, BrumeId light, VkDeviceAddress* address) {
     if (address) *address = 0;
     return guard([&] {

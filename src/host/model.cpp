@@ -132,6 +132,13 @@ void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
         mOptions.method = own.method;
         if (!info.settings) mOptions.settings = own.settings;
     }
+    mInside = info.inside;
+    if (mInside != BRUME_INSIDE_NOTHING && mOptions.method != "sorted" &&
+        mOptions.method != "unordered")
+        throw refuse(kCreate, "inside",
+                     fmt::format("method {} needs images of its own, allowed are sorted and "
+                                 "unordered",
+                                 mOptions.method));
     std::string allowed;
     bool isKnown = false;
     for (const oit::MethodInfo& method : oit::listMethods()) {

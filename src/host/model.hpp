@@ -26,6 +26,7 @@ class Model {
     const render::PreparedScene& prepared() const { return mPrepared; }
     /// Of the host's choice, of the scene, or one that hosts can use.
     const render::Options& options() const { return mOptions; }
+    BrumeInside inside() const { return mInside; }
 
     BrumeId addMedium(const BrumeMedium& medium);
     void setMedium(BrumeId id, const BrumeMedium& medium);
@@ -79,6 +80,7 @@ class Model {
     const Context* mContext;
     render::PreparedScene mPrepared;
     render::Options mOptions;
+    BrumeInside mInside = BRUME_INSIDE_NOTHING;
     BrumeId mLastId = 0;
     std::uint64_t mRevision = 0;  // of effects
     std::uint64_t mStructure = 1, mValues = 1;

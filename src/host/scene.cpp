@@ -108,6 +108,9 @@ void Scene::make(const Made& wanted) {
         composer->scene.setShadows(composer->shadows->addresses());
         composer->areShadowsReady = true;
     }
+    const BrumeInside inside = mModel.inside();
+    if (inside != BRUME_INSIDE_NOTHING) composer->callers.color = wanted.color.format;
+    if (inside == BRUME_INSIDE_COLOR_DEPTH) composer->callers.depth = wanted.depth.format;
     composer->addMethod();
     composer->method->prepare([](const oit::OitMethod::DeclareFunction&) {
         throw AssertionError("a method within a host's frame wants to measure");
@@ -144,8 +147,10 @@ void Scene::declareFrames() {
     const frame::ImageRef color = frame.importImage(mColor), depth = frame.importImage(mDepth);
     const frame::ImageRef reversed = mBackdrop->declareImport(frame, inputs, color, depth);
     mComposer->opaque.declareMeshes(frame, mComposer->scene, inputs, reversed, gpu::LoadOp::Load);
-    mComposer->declareResult(frame, inputs);
+    inputs.callers = mComposer->callers;
+    if (!inputs.callers) mComposer->declareResult(frame, inputs);
     mComposer->method->declare(frame, inputs);
+    if (inputs.callers) return;
     mBackdrop->declareComposite(frame, inputs, color);
 }
 
@@ -238,8 +243,36 @@ void Scene::shadow(VkCommandBuffer commandBuffer, const BrumeView& view) {
     });
 }
 
+void Scene::prepareDraw(VkCommandBuffer commandBuffer, const BrumeView& view) {
+    constexpr const char* kCall = "brumeCmdPrepareDraw";
+    if (mModel.inside() == BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "it was not created with inside");
+    checkHandles(kCall, "color", view.color);
+    checkHandles(kCall, "depth", view.depth);
+    record(kCall, [&] {
+        build(kCall, view);
+        if (mPush.offsetX != 0 || mPush.offsetY != 0)
+            throw refuse(kCall, "viewport", "it does not begin at 0, 0");
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordRender(commands, view);
+        finishRender(commands);
+    });
+}
+
+void Scene::draw(VkCommandBuffer commandBuffer) {
+    constexpr const char* kCall = "brumeCmdDraw";
+    if (!mRenderFrame || !mRenderFrame->isPaused() || mModel.inside() == BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "brumeCmdPrepareDraw() was not called before");
+    record(kCall, [&] {
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mRenderFrame->resume(commands);
+    });
+}
+
 void Scene::render(VkCommandBuffer commandBuffer, const BrumeView& view) {
     constexpr const char* kCall = "brumeCmdRender";
+    if (mModel.inside() != BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "it was created with inside, for brumeCmdDraw()");
     checkHandles(kCall, "color", view.color);
     checkHandles(kCall, "depth", view.depth);
     record(kCall, [&] {

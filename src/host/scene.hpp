@@ -25,6 +25,8 @@ class Scene {
     void render(VkCommandBuffer commands, const BrumeView& view);
     void beginLayers(VkCommandBuffer commands, const BrumeView& view);
     void endLayers(VkCommandBuffer commands);
+    void prepareDraw(VkCommandBuffer commands, const BrumeView& view);
+    void draw(VkCommandBuffer commands);
     VkDeviceAddress shadowOf(BrumeId light) const;
     BrumeCounters counters() const;
 

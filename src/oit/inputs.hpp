@@ -43,6 +43,13 @@ struct SurfaceDraw {
     const gpu::Image* emissionTexture = nullptr;
 };
 
+/// Rendering that the frame's caller begins and ends, for methods that draw into it directly.
+struct CallersRendering {
+    VkFormat color = VK_FORMAT_UNDEFINED;  ///< undefined: there is none
+    VkFormat depth = VK_FORMAT_UNDEFINED;  ///< attached, but neither tested nor written
+    explicit operator bool() const { return color != VK_FORMAT_UNDEFINED; }
+};
+
 /// Buffers are bound as shaders/common/bindings.glsl and mesh.h say; those that the frame itself
 /// writes are BufferRefs. All outlive the frame.
 struct Inputs {
@@ -69,6 +76,7 @@ struct Inputs {
         opaqueT;  ///< R32F, distance of the opaque surface along the ray; 3e38 where there is none
     frame::ImageRef opaqueColor;  ///< RGBA32F, its radiance or the background's
     frame::ImageRef result;       ///< RGBA32F, to be written whole
+    CallersRendering callers;     ///< instead of result: methods unordered and sorted only
 };
 
 }  // namespace brume::oit

@@ -53,6 +53,7 @@ void Composer::addShadows(const Box3& translucentBounds) {
 void Composer::addMethod() {
     oit::Inputs inputs = scene.makeInputs();
     inputs.needs.hostLayers = options.hostLayers;
+    inputs.callers = callers;
     method = oit::createMethod(options.method, device, inputs, options.settings);
 }
 

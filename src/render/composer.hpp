@@ -46,6 +46,7 @@ class Composer {
     Options options;            ///< without the settings below
     std::uint64_t shuffleSeed;  ///< setting "shuffle"; 0: spheres stay as they come
     scene::Settings shadowSettings;
+    oit::CallersRendering callers;  ///< set before addMethod(): it draws there
     GpuScene scene;
     EffectParticles effects;
     OpaquePass opaque;

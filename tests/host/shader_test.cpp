@@ -77,6 +77,60 @@ TEST_F(HostTest, HostLayers_AreComposedWithSmoke) {
     EXPECT_THROW(Scene(context, info), ApiError);
 }
 
+// Blended into the host's own rendering, with and without its depth attached.
+TEST_F(HostTest, DrawnInsideTheHostsRendering_EqualsRender) {
+    const Context context(host().contextInfo());
+    const auto make = [&](BrumeInside inside) {
+        auto info = init<BrumeSceneCreateInfo>();
+        info.text = kSpheresScene;
+        info.method = "sorted";
+        info.inside = inside;
+        Scene scene(context, info);
+        auto puffs = init<BrumeEffect>();
+        puffs.text = kEffect;
+        puffs.time = 0.4;
+        check(brumeAddEffect(scene.get(), &puffs, nullptr));
+        return scene;
+    };
+    Scene rendered = make(BRUME_INSIDE_NOTHING);
+    host().draw({0.2f, 0.3f, 0.4f}, 0.02f);  // a wall at 5 m
+    host().frame(context.get(),
+                 [&](VkCommandBuffer commands) { rendered.cmdRender(commands, host().view()); });
+    const std::vector<vec4> expected = host().read();
+    for (const BrumeInside inside : {BRUME_INSIDE_COLOR, BRUME_INSIDE_COLOR_DEPTH}) {
+        Scene drawn = make(inside);
+        for (int frame = 0; frame < 3; ++frame) {
+            host().draw({0.2f, 0.3f, 0.4f}, 0.02f);
+            host().frame(context.get(), [&](VkCommandBuffer commandBuffer) {
+                const BrumeView view = host().view();
+                EXPECT_EQ(brumeCmdDraw(drawn.get(), commandBuffer), BRUME_ERROR_INVALID_ARGUMENT);
+                EXPECT_EQ(brumeCmdRender(drawn.get(), commandBuffer, &view),
+                          BRUME_ERROR_INVALID_ARGUMENT);
+                check(brumeCmdPrepareDraw(drawn.get(), commandBuffer, &view));
+                gpu::Commands commands(device(), commandBuffer);
+                const gpu::ColorAttachment color{&host().color, gpu::LoadOp::Load, {}, {}};
+                std::optional<gpu::DepthAttachment> depth;
+                if (inside == BRUME_INSIDE_COLOR_DEPTH)
+                    depth = gpu::DepthAttachment{&host().depth, gpu::LoadOp::Load};
+                commands.beginRendering(std::span(&color, 1), depth);
+                check(brumeCmdDraw(drawn.get(), commandBuffer));
+                commands.endRendering();
+            });
+            double largest = 0;
+            const std::vector<vec4> seen = host().read();
+            for (std::size_t i = 0; i < seen.size(); ++i)
+                for (int c = 0; c < 4; ++c)
+                    largest = std::max(largest, std::abs(double(seen[i][c]) - expected[i][c]));
+            EXPECT_LE(largest, 1e-6) << "frame " << frame;
+        }
+    }
+    auto info = init<BrumeSceneCreateInfo>();
+    info.text = kSpheresScene;
+    info.method = "weighted";
+    info.inside = BRUME_INSIDE_COLOR;
+    EXPECT_THROW(Scene(context, info), ApiError);
+}
+
 TEST_F(HostTest, HostShader_SamplesOurShadows) {
     const gpu::ComputePipeline ask(device(), {.name = "test.shadow",
                                               .spirv = spv::host_tests_shadow_comp,
