@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a host sees: the same as the renderer of whole images, behind and before what it has drawn.
+#include <brume/brume_vdb.h>
 #include <host/host_fixture.hpp>
 
 #include <bench/prepare.hpp>
@@ -325,6 +326,41 @@ TEST_F(HostTest, ReloadedEffect_ReachesLiveInstances) {
         fresh.cmdRender(commands, host().view());
     });
     EXPECT_EQ(host().read(), after);
+}
+
+TEST_F(HostTest, VolumeOfAFile_IsReadByTheHost) {
+    const std::string folder = ::testing::TempDir() + "brume_host_volume";
+    std::filesystem::create_directories(folder);
+    const std::string file = folder + "/scene.json";
+    std::ofstream(file) << R"({ "version": 1,
+        "camera": { "position": [0, 0, 5], "target": [0, 0, 0], "verticalFov": 60, "near": 0.1 },
+        "image": { "width": 48, "height": 32 }, "background": { "radiance": [0.2, 0.3, 0.4] },
+        "lights": [ { "type": "ambient", "radiance": [0.4, 0.5, 0.6] } ],
+        "media": { "smoke": { "extinction": [2, 2, 2], "albedo": [0.9, 0.8, 0.7] } },
+        "volumes": [ { "file": ")"
+                        << BRUME_SOURCE_DIR
+                        << R"(/demos/plume/fire.vdb", "density": "density", "medium": "smoke",
+                        "transform": { "translate": [0, -1, 0] } } ] })";
+    auto info = host().contextInfo();
+    EXPECT_THROW(Scene::load(Context(info), file.c_str()), ApiError) << "nobody reads volumes";
+    info.readVolume = brumeReadVdb;
+    const Context context(info);
+    Scene scene = Scene::load(context, file.c_str(), "sorted");
+    host().draw({0.2f, 0.3f, 0.4f}, 0);
+    host().frame(context.get(),
+                 [&](VkCommandBuffer commands) { scene.cmdRender(commands, host().view()); });
+    EXPECT_GT(scene.counters().boxes, 10u);
+    const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
+    render::Options options;
+    options.method = "sorted";
+    const brume::Image expected =
+        render::Renderer(device(), prepared, options, log()).renderFrame().image;
+    EXPECT_LE(largestDifference(host().read(), expected), 1e-6);
+
+    auto density = init<BrumeDensity>();
+    EXPECT_EQ(brumeReadVdb(nullptr, file.c_str(), "density", -1, &density),
+              BRUME_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(brumeVdbLastError()).find("scene.json"), std::string::npos);
 }
 
 TEST_F(HostTest, VolumeByACall_IsSeen) {

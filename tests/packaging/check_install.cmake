@@ -38,6 +38,30 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/cmake -DCMAKE_PREFIX_PATH=${prefi
 run(${CMAKE_COMMAND} --build ${WORK}/cmake)
 expect_answer(${WORK}/cmake/consumer)
 
+# The demo, outside of the source tree: a renderer that exists, and the tutorial's lines.
+if(DEMO)
+  file(COPY ${DEMO}/ DESTINATION ${WORK}/demo)
+  file(WRITE ${WORK}/demo/CMakeLists.txt "cmake_minimum_required(VERSION 3.22)
+project(demo LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+find_package(brume 0.1 REQUIRED)
+find_package(Vulkan REQUIRED)
+find_package(ZLIB REQUIRED)
+add_executable(demo main.cpp renderer.cpp png.cpp)
+target_include_directories(demo PRIVATE ${BUILD}/generated)  # the cube's own shaders
+target_compile_definitions(demo PRIVATE HOST_MINIMAL_SCENE=\"${WORK}/demo/scene.json\")
+target_link_libraries(demo PRIVATE brume::brume Vulkan::Vulkan ZLIB::ZLIB)
+")
+  run(${CMAKE_COMMAND} -S ${WORK}/demo -B ${WORK}/demo/build -DCMAKE_PREFIX_PATH=${prefix}
+      -DCMAKE_CXX_COMPILER=${CXX})
+  run(${CMAKE_COMMAND} --build ${WORK}/demo/build)
+  run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libdir} ${WORK}/demo/build/demo --validate --frames 3
+      --size 64x48 --start 1 -o ${WORK}/demo.png)
+  if(NOT EXISTS ${WORK}/demo.png)
+    message(FATAL_ERROR "the demo has made no picture")
+  endif()
+endif()
+
 # Shaders of hosts find the includes.
 file(WRITE ${WORK}/shader.comp "#version 460
 #extension GL_GOOGLE_include_directive : require
