@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bench/prepare.hpp>
+#include <core/frame_path.hpp>
 #include <particles/cpu_simulation.hpp>
 #include <volumes/vdb_file.hpp>
 #include <volumes/volume_spheres.hpp>
@@ -24,7 +25,9 @@ void addSceneSpheres(render::PreparedScene& prepared) {
     }
 }
 
-void addVolume(const scene::Volume& volume, const Log& log, render::PreparedScene& prepared) {
+void addVolume(scene::Volume volume, int frame, const Log& log, render::PreparedScene& prepared) {
+    if (hasFrameNumber(volume.file))
+        volume.file = makeFramePath(volume.file, frame + volume.frameOffset);
     const double extinction = largestExtinction(prepared.scene.media[volume.medium]);
     volumes::VolumeGrid grid = volumes::loadVolume(volume, extinction, log);
     if (volume.representation == scene::VolumeRepresentation::Particles) {
@@ -44,12 +47,18 @@ void addVolume(const scene::Volume& volume, const Log& log, render::PreparedScen
 
 }  // namespace
 
-render::PreparedScene prepareScene(scene::Scene scene, const Log& log) {
+render::PreparedScene prepareScene(scene::Scene scene, const Log& log, int frame) {
     render::PreparedScene prepared;
     prepared.scene = std::move(scene);
     addSceneSpheres(prepared);
-    for (const scene::Volume& volume : prepared.scene.volumes) addVolume(volume, log, prepared);
+    for (const scene::Volume& volume : prepared.scene.volumes)
+        addVolume(volume, frame, log, prepared);
     return prepared;
+}
+
+bool hasVolumeSequence(const scene::Scene& scene) {
+    return std::any_of(scene.volumes.begin(), scene.volumes.end(),
+                       [](const scene::Volume& volume) { return hasFrameNumber(volume.file); });
 }
 
 std::vector<scene::MediumSphere> simulateOnCpu(const scene::Scene& scene) {

@@ -95,6 +95,12 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     commands.endLabel();
 }
 
+std::vector<CompiledEffect> GpuSimulation::effects() const {
+    std::vector<CompiledEffect> effects;
+    for (const auto& population : mPopulations) effects.push_back(population->effect());
+    return effects;
+}
+
 std::uint64_t GpuSimulation::bytes() const {
     std::uint64_t sum = 0;
     for (const auto& population : mPopulations) sum += population->bytes();

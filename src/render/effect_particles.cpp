@@ -1,12 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <render/effect_particles.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace brume::render {
 
 using frame::Access;
+
+namespace {
+
+std::string checkpointName(int frame, std::size_t entry) {
+    return fmt::format("frame_{:06}.effect_{:03}.state", frame, entry);
+}
+
+/// The last frame up to `frame` that `folder` has states of all these entries of.
+std::optional<int> findCheckpoint(const std::filesystem::path& folder, int frame,
+                                  const std::vector<std::size_t>& entries) {
+    std::map<int, std::set<std::size_t>> found;
+    std::error_code error;
+    for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+        int number = 0, read = 0;
+        std::size_t entry = 0;
+        const std::string name = file.path().filename().string();
+        // Names are compared whole: half-written files end differently.
+        if (std::sscanf(name.c_str(), "frame_%d.effect_%zu.state%n", &number, &entry, &read) == 2 &&
+            name == checkpointName(number, entry) && number <= frame)
+            found[number].insert(entry);
+    }
+    for (auto it = found.rbegin(); it != found.rend(); ++it)
+        if (std::all_of(entries.begin(), entries.end(),
+                        [&](std::size_t entry) { return it->second.count(entry) > 0; }))
+            return it->first;
+    return std::nullopt;
+}
+
+}  // namespace
 
 std::uint32_t firstParticleId(std::size_t effect) {
     return static_cast<std::uint32_t>(effect + 1) << 24;
@@ -48,9 +82,8 @@ std::unique_ptr<particles::GpuSimulation> EffectParticles::takeOver(
 std::uint64_t EffectParticles::ticksBehind() const {
     std::uint64_t behind = 0;
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
-        const std::uint64_t target =
-            particles::ticksAt(mPrepared->scene.effects[mRoots[i][0]].time,
-                               mSimulations[i]->effect().tickRate);
+        const std::uint64_t target = particles::ticksAt(mPrepared->scene.effects[mRoots[i][0]].time,
+                                                        mSimulations[i]->effect().tickRate);
         behind = std::max(behind, target - std::min(target, mSimulations[i]->tick()));
     }
     return behind;
@@ -112,6 +145,38 @@ void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                                .instance = mPlaces[i].instance});
             }
         });
+}
+
+particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,
+                                                          std::size_t entry) const {
+    return {particles::fingerprintOf(mSimulations[simulation]->effects()),
+            mPrepared->scene.effects[entry].seed, static_cast<std::uint32_t>(entry)};
+}
+
+void EffectParticles::writeCheckpoints(gpu::Submitter& submitter,
+                                       const std::filesystem::path& folder, int frame) const {
+    for (std::size_t s = 0; s < mSimulations.size(); ++s)
+        for (std::size_t i = 0; i < mRoots[s].size(); ++i)
+            particles::writeCheckpoint(
+                folder / checkpointName(frame, mRoots[s][i]), checkpointKeyOf(s, mRoots[s][i]),
+                mSimulations[s]->readState(submitter, static_cast<std::uint32_t>(i)));
+}
+
+void EffectParticles::readCheckpoints(gpu::Submitter& submitter,
+                                      const std::filesystem::path& folder, int frame) {
+    std::vector<std::size_t> entries;
+    for (const std::vector<std::size_t>& roots : mRoots)
+        entries.insert(entries.end(), roots.begin(), roots.end());
+    const std::optional<int> last = findCheckpoint(folder, frame, entries);
+    if (!last) return;
+    for (std::size_t s = 0; s < mSimulations.size(); ++s) {
+        std::vector<particles::SimulationState> states;
+        for (const std::size_t entry : mRoots[s])
+            states.push_back(particles::readCheckpoint(folder / checkpointName(*last, entry),
+                                                       checkpointKeyOf(s, entry),
+                                                       mSimulations[s]->effects()));
+        mSimulations[s]->writeState(submitter, states);
+    }
 }
 
 std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& submitter) const {

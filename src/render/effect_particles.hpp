@@ -7,6 +7,7 @@
 #include <particles/gpu_simulation.hpp>
 #include <render/gpu_scene.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,14 @@ class EffectParticles {
     /// Ticks that the effect farthest from its time is behind.
     std::uint64_t ticksBehind() const;
 
+    /// Writes the state of each instance to a file of its own in `folder`. Submits and waits; throws
+    /// a failure Error.
+    void writeCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder,
+                          int frame) const;
+    /// Goes on from the last states in `folder` that are complete and not after `frame`; from the
+    /// beginning where there are none. Throws an input Error for those of other effects or seeds.
+    void readCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder, int frame);
+
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
     std::uint64_t bytes() const;
 
@@ -40,6 +49,7 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
+    particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
     std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
     std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
 

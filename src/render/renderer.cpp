@@ -16,20 +16,17 @@ namespace brume::render {
 
 struct Renderer::Impl {
     Impl(gpu::Device& device, const PreparedScene& prepared_, const Options& options_,
-         const Log& log_)
+         const Log& log_, EffectParticles* previous)
         : prepared(prepared_),
           options(options_),
           log(log_),
           submitter(device),
           pool(device),
           timers(device),
-          composer(device, prepared, options, makeView(prepared)) {
-        submitter.submitAndWait("upload scene", [&](gpu::Commands& commands) {
-            composer.recordContent(commands);
-        });
-        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
-            composer.effects.recordSimulate(commands);
-        });
+          composer(device, prepared, options, makeView(prepared), previous) {
+        submitter.submitAndWait("upload scene",
+                                [&](gpu::Commands& commands) { composer.recordContent(commands); });
+        simulate();
         if (composer.shuffleSeed != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
             composer.scene.shuffleSpheres(submitter, composer.shuffleSeed);
@@ -48,24 +45,57 @@ struct Renderer::Impl {
                                                  .bytes = 4 * pixels,
                                                  .memory = gpu::MemoryKind::Readback});
         }
+        prepareMethod();
+    }
+
+    void simulate() {
+        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+            composer.effects.recordSimulate(commands);
+        });
+    }
+
+    void prepareMethod() {
         composer.method->prepare(
             [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
-    void prepareShadows() {
-        composer.addShadows(
-            findTranslucentBounds(prepared, composer.effects.readSpheres(submitter)));
-        submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
-            composer.casters->recordContent(commands);
-        });
-        shadows::Shadows& shadows = *composer.shadows;
-        shadows.prepare(submitter, [&](const shadows::Shadows::DeclareFunction& declare) {
+    bool advance() {
+        if (composer.shuffleSeed != 0) return false;
+        simulate();
+        if (composer.hasShadows()) {
+            const Box3 bounds = translucentBounds();
+            // Lights without casters have no maps.
+            if (bounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
+                return false;
+            composer.shadows->fit(composer.scene.lights(), composer.scene.camera().position,
+                                  bounds);
+            composer.shadows->invalidate();
+            binCasters();
+        }
+        prepareMethod();
+        return true;
+    }
+
+    Box3 translucentBounds() {
+        return findTranslucentBounds(prepared, composer.effects.readSpheres(submitter));
+    }
+
+    void binCasters() {
+        composer.shadows->prepare(submitter, [&](const shadows::Shadows::DeclareFunction& declare) {
             frame::FrameBuilder frame(pool);
             declare(frame, composer.declareParticles(frame));
             submitter.submitAndWait("measure shadows",
                                     [&](gpu::Commands& commands) { frame.execute(commands); });
         });
-        composer.scene.setShadows(shadows.addresses());
+    }
+
+    void prepareShadows() {
+        composer.addShadows(translucentBounds());
+        submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
+            composer.casters->recordContent(commands);
+        });
+        binCasters();
+        composer.scene.setShadows(composer.shadows->addresses());
         gpu::UploadRing ring(composer.device, "render.upload", 1);
         submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
             composer.scene.recordView(commands, ring);
@@ -145,8 +175,8 @@ struct Renderer::Impl {
 };
 
 Renderer::Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
-                   const Log& log)
-    : mImpl(std::make_unique<Impl>(device, scene, options, log)) {}
+                   const Log& log, EffectParticles* previous)
+    : mImpl(std::make_unique<Impl>(device, scene, options, log, previous)) {}
 
 Renderer::~Renderer() = default;
 
@@ -187,11 +217,18 @@ std::vector<scene::MediumSphere> Renderer::readParticles() const {
     return mImpl->composer.effects.readSpheres(mImpl->submitter);
 }
 
+bool Renderer::advance() { return mImpl->advance(); }
+
+std::unique_ptr<EffectParticles> Renderer::takeEffects() {
+    return std::make_unique<EffectParticles>(std::move(mImpl->composer.effects));
+}
+
 ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {
     std::vector<vec3> relative;
     for (const dvec3& position : positions)
         relative.push_back(vec3(position - mImpl->composer.scene.camera().position));
-    const ShadowProbe probe(mImpl->submitter, mImpl->composer.scene.makeInputs().needs, light, relative);
+    const ShadowProbe probe(mImpl->submitter, mImpl->composer.scene.makeInputs().needs, light,
+                            relative);
     frame::FrameBuilder frame(mImpl->pool);
     probe.declare(frame, mImpl->declareInputs(frame));
     mImpl->submitter.submitAndWait("probe", [&](gpu::Commands& commands) {

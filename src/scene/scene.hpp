@@ -128,7 +128,8 @@ struct Mesh {
 enum class VolumeRepresentation { Bricks, Boxes, Particles };
 
 struct Volume {
-    std::filesystem::path file;
+    std::filesystem::path file;  ///< may be a sequence: its name holds #### or %04d
+    int frameOffset = 0;         ///< sequences: number of the file that frame 0 shows
     std::string density = "density";  ///< name of the grid
     int gridIndex =
         -1;  ///< among the grids of that name; -1: the only one (several: an error that lists them)
