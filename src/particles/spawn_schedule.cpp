@@ -117,6 +117,7 @@ TickBirths SpawnSchedule::at(std::uint64_t tick) const {
         const dvec3 motion = end - pathAt(emitter, tick);
         for (shader::BirthBatch& batch : batches) {
             batch.emitter = i;
+            batch.strand = i;
             batch.firstBirthIndex = static_cast<std::uint32_t>(index);
             index += batch.count;
             const std::uint32_t kept = std::min(batch.count, mCapacity - births.count);

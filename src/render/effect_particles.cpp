@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <particles/surfaces.hpp>
 #include <render/effect_particles.hpp>
+#include <scene/camera.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace brume::render {
@@ -15,6 +18,7 @@ EffectParticles::EffectParticles(gpu::Submitter& submitter, const PreparedScene&
     : mPrepared(&prepared) {
     groupInstances();
     simulate(submitter);
+    readSurfaces(submitter);
 }
 
 void EffectParticles::groupInstances() {
@@ -27,7 +31,7 @@ void EffectParticles::groupInstances() {
         } else {
             // Effects made in code have no file to know them by: each stands alone.
             const bool isKnown = !effects[i].file.empty();
-            const std::pair key(effects[i].file, effects[i].time);
+            const std::pair key(effects[i].file, effects[i].simulatedSeconds());
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -50,20 +54,49 @@ void EffectParticles::simulate(gpu::Submitter& submitter) {
             submitter.device(), first.effect, instances));
         submitter.submitAndWait("simulate " + first.file.filename().string(),
                                 [&](gpu::Commands& commands) {
-                                    mSimulations.back()->recordAdvanceTo(commands, first.time);
+                                    mSimulations.back()->recordAdvanceTo(
+                                        commands, first.simulatedSeconds());
                                 });
+    }
+}
+
+void EffectParticles::readSurfaces(gpu::Submitter& submitter) {
+    const scene::Scene& scene = mPrepared->scene;
+    for (std::size_t i = 0; i < mPlaces.size(); ++i) {
+        const scene::EffectInstance& effect = scene.effects[i];
+        if (!effect.effect.surface) continue;
+        const Place& place = mPlaces[i];
+        const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
+        const auto state = simulation.readState(submitter, place.instance);
+        const auto root =
+            static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+        scene::Mesh mesh = particles::makeSurfaceMesh(
+            {.effect = effect.effect,
+             .compiled = simulation.effect(place.population),
+             .state = state,
+             .population = place.population,
+             .random = particles::instanceParameters(effect.seed, root, place.population).random,
+             .sinceTick = simulation.sinceTick()},
+            effect.worldFromEffect,
+            scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height),
+            effect.material);
+        if (!mesh.indices.empty()) mSurfaces.push_back(std::move(mesh));
     }
 }
 
 void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                               frame::BufferRef spheres) const {
-    if (mSimulations.empty()) return;
+    const auto& effects = mPrepared->scene.effects;
+    if (std::all_of(effects.begin(), effects.end(),
+                    [](const auto& effect) { return effect.effect.surface.has_value(); }))
+        return;
     frame.addPass("particles.appearance")
         .readsWrites(spheres, Access::ComputeWrite)
         .record([this, &scene, spheres](gpu::Commands& commands,
                                         const frame::PassResources& resources) {
             for (std::size_t i = 0; i < mPlaces.size(); ++i) {
                 const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+                if (effect.effect.surface) continue;
                 mSimulations[mPlaces[i].simulation]->recordAppearance(
                     commands, {.worldFromEffect = effect.worldFromEffect,
                                .cameraPosition = scene.camera().position,
@@ -81,6 +114,7 @@ std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& su
     std::vector<scene::MediumSphere> spheres;
     for (std::size_t i = 0; i < mPlaces.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+        if (effect.effect.surface) continue;
         const Place& place = mPlaces[i];
         const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
         const auto snapshot = simulation.readState(submitter, place.instance);

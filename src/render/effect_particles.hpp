@@ -21,6 +21,9 @@ class EffectParticles {
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
 
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
+
+    /// Ribbons and billboards at the effects' time, in the order of the scene's entries.
+    const std::vector<scene::Mesh>& surfaces() const { return mSurfaces; }
     std::uint64_t bytes() const;
 
   private:
@@ -32,11 +35,13 @@ class EffectParticles {
     };
     void groupInstances();
     void simulate(gpu::Submitter& submitter);
+    void readSurfaces(gpu::Submitter& submitter);
 
     const PreparedScene* mPrepared;
     std::vector<Place> mPlaces;  // by entry
     std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
+    std::vector<scene::Mesh> mSurfaces;
 };
 
 /// Id of the first particle of an effect; ids only order what begins at equal distances.

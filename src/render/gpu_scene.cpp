@@ -237,7 +237,7 @@ void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& pre
                                       [](const auto& a, const auto& b) { return a.id < b.id; });
     for (const scene::EffectInstance& effect : prepared.scene.effects) {
         mFirstEffectSphere.push_back(static_cast<std::uint32_t>(spheres.size()));
-        spheres.resize(spheres.size() + effect.effect.capacity);
+        if (!effect.effect.surface) spheres.resize(spheres.size() + effect.effect.capacity);
     }
     mSphereCount = static_cast<std::uint32_t>(spheres.size());
     mSpheres = makeArray(submitter, "render.spheres", std::move(spheres));

@@ -43,13 +43,21 @@ scene::Settings takeShadowSettings(scene::Settings& settings) {
     return taken;
 }
 
+/// The scene with what effects show as meshes; none if there are no such.
+std::optional<PreparedScene> withSurfaces(const PreparedScene& prepared,
+                                          const std::vector<scene::Mesh>& surfaces) {
+    if (surfaces.empty()) return std::nullopt;
+    PreparedScene result = prepared;
+    result.scene.meshes.insert(result.scene.meshes.end(), surfaces.begin(), surfaces.end());
+    return result;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
     Impl(gpu::Device& device_, const PreparedScene& scene_, const Options& options_,
          const Log& log_)
         : device(device_),
-          prepared(scene_),
           options(options_),
           log(log_),
           shuffle(takeShuffle(options.settings)),
@@ -57,8 +65,10 @@ struct Renderer::Impl {
           submitter(device),
           pool(device),
           timers(device),
+          effects(submitter, scene_),
+          extended(withSurfaces(scene_, effects.surfaces())),
+          prepared(extended ? *extended : scene_),
           scene(submitter, prepared),
-          effects(submitter, prepared),
           opaque(device, scene.makeInputs().needs) {
         if (shuffle != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
@@ -169,7 +179,6 @@ struct Renderer::Impl {
     }
 
     gpu::Device& device;
-    const PreparedScene& prepared;
     Options options;
     Log log;
     std::uint64_t shuffle;
@@ -177,8 +186,10 @@ struct Renderer::Impl {
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
-    GpuScene scene;
     EffectParticles effects;
+    std::optional<PreparedScene> extended;
+    const PreparedScene& prepared;
+    GpuScene scene;
     OpaquePass opaque;
     std::optional<ShadowCasters> casters;
     std::optional<shadows::Shadows> shadows;
@@ -227,8 +238,8 @@ Result Renderer::renderFrame() {
     return result;
 }
 
-std::vector<scene::MediumSphere> Renderer::readParticles() const {
-    return mImpl->effects.readSpheres(mImpl->submitter);
+EffectContents Renderer::readEffects() const {
+    return {mImpl->effects.readSpheres(mImpl->submitter), mImpl->effects.surfaces()};
 }
 
 ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {

@@ -26,10 +26,16 @@ namespace brume::render {
 
 /// A scene with its files loaded: what both the GPU renderer and the reference see.
 struct PreparedScene {
-    scene::Scene scene;
+    scene::Scene scene;  ///< the materials of its effects' surfaces are those that they show
     std::vector<volumes::VolumeGrid> volumes;  ///< parallel to scene.volumes
     std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to
                                                ///< particles; effects are simulated by the renderer
+};
+
+/// What effects show at their time.
+struct EffectContents {
+    std::vector<scene::MediumSphere> spheres;
+    std::vector<scene::Mesh> surfaces;  ///< ribbons and billboards, facing the camera
 };
 
 struct Options {
@@ -81,7 +87,7 @@ class Renderer {
     Result renderFrame();
 
     /// Particles as simulated on the device, read back: for the reference.
-    std::vector<scene::MediumSphere> readParticles() const;
+    EffectContents readEffects() const;
 
     /// Builds the shadow maps and asks them at world positions: the share of a light (counted
     /// without the ambient ones) that arrives there, per channel.
