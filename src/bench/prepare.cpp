@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bench/prepare.hpp>
+#include <core/frame_path.hpp>
 #include <particles/cpu_simulation.hpp>
 #include <particles/surfaces.hpp>
 #include <scene/camera.hpp>
@@ -26,7 +27,9 @@ void addSceneSpheres(render::PreparedScene& prepared) {
     }
 }
 
-void addVolume(const scene::Volume& volume, const Log& log, render::PreparedScene& prepared) {
+void addVolume(scene::Volume volume, int frame, const Log& log, render::PreparedScene& prepared) {
+    if (hasFrameNumber(volume.file))
+        volume.file = makeFramePath(volume.file, frame + volume.frameOffset);
     const double extinction = largestExtinction(prepared.scene.media[volume.medium]);
     volumes::VolumeGrid grid = volumes::loadVolume(volume, extinction, log);
     if (volume.representation == scene::VolumeRepresentation::Particles) {
@@ -47,7 +50,9 @@ void addVolume(const scene::Volume& volume, const Log& log, render::PreparedScen
 void prepareEffects(scene::Scene& scene) {
     for (scene::EffectInstance& instance : scene.effects) {
         volumes::loadEffectFields(instance.effect);
-        if (!instance.effect.surface) continue;
+        // A scene that is prepared for another frame has its own materials already.
+        if (!instance.effect.surface || instance.isPrepared) continue;
+        instance.isPrepared = true;
         scene.materials.push_back(particles::makeSurfaceMaterial(
             scene.materials[instance.material], instance.effect));
         instance.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
@@ -56,13 +61,19 @@ void prepareEffects(scene::Scene& scene) {
 
 }  // namespace
 
-render::PreparedScene prepareScene(scene::Scene scene, const Log& log) {
+render::PreparedScene prepareScene(scene::Scene scene, const Log& log, int frame) {
     render::PreparedScene prepared;
     prepared.scene = std::move(scene);
     addSceneSpheres(prepared);
     prepareEffects(prepared.scene);
-    for (const scene::Volume& volume : prepared.scene.volumes) addVolume(volume, log, prepared);
+    for (const scene::Volume& volume : prepared.scene.volumes)
+        addVolume(volume, frame, log, prepared);
     return prepared;
+}
+
+bool hasVolumeSequence(const scene::Scene& scene) {
+    return std::any_of(scene.volumes.begin(), scene.volumes.end(),
+                       [](const scene::Volume& volume) { return hasFrameNumber(volume.file); });
 }
 
 render::EffectContents simulateOnCpu(const scene::Scene& scene) {

@@ -16,7 +16,7 @@ struct Needs {
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;        ///< point or spot lights, or shadows
+    bool varyingLight = false;        ///< point or spot lights, or shadows, on media that scatter
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does

@@ -224,14 +224,16 @@ void GpuPopulation::restart(std::uint64_t tick) {
         mAliveBound.addTick(mEffect.schedule.at(t).count);
 }
 
-TickPart GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
-    TickPart part;
+const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
+    TickPart& part = mPart;  // keeps its memory: a steady frame allocates nothing
+    part.ticks.clear();
+    part.batches.clear();
     maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
     while (part.ticks.size() < maxTicks &&
            part.batches.size() + mEffect.schedule.maxBatchesPerTick() <= mBatchCapacity) {
         const std::uint64_t tick = firstTick + part.ticks.size();
-        const TickBirths births =
-            mEffect.isChild() ? TickBirths{} : mEffect.schedule.at(tick);
+        if (!mEffect.isChild()) mEffect.schedule.at(tick, mBirths);
+        const TickBirths& births = mBirths;
         part.ticks.push_back(
             makeTick(tick, births, static_cast<std::uint32_t>(part.batches.size())));
         part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());

@@ -45,7 +45,9 @@ class GpuPopulation {
     /// Starts anew at `tick` with nothing alive; the bound on what is follows the schedule.
     void restart(std::uint64_t tick);
     /// The next ticks, at most `maxTicks`, as many as are uploaded at once.
-    TickPart schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks);
+    const TickPart& schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks);
+    /// What schedulePart() has returned last.
+    const TickPart& part() const { return mPart; }
 
     /// Nothing is alive at `tick`, where restart() went.
     void recordClear(gpu::Commands& commands, std::uint64_t tick) const;
@@ -82,6 +84,8 @@ class GpuPopulation {
     std::uint32_t batchStride() const { return mBatchStride; }
 
     CompiledEffect mEffect;
+    TickPart mPart;
+    TickBirths mBirths;
     AliveBound mAliveBound;
     std::uint32_t mInstanceCount;
     std::uint32_t mWorkgroupSize;

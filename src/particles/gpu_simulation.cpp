@@ -49,17 +49,16 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     mMustClear = false;
     for (const std::uint64_t end = mTick + ticks; mTick < end;) {
         // Children follow their root tick by tick; only that knows how many fit.
-        std::vector<TickPart> parts;
         std::uint64_t most = end - mTick;
         for (const auto& population : mPopulations) {
-            parts.push_back(population->schedulePart(mTick, most));
-            most = parts[0].ticks.size();
-            population->recordUpload(commands, parts.back());
+            const TickPart& part = population->schedulePart(mTick, most);
+            if (population == mPopulations.front()) most = part.ticks.size();
+            population->recordUpload(commands, part);
         }
         commands.computeTransferBarrier();
         for (std::uint32_t slot = 0; slot < most; ++slot)
             for (std::size_t i = 0; i < mPopulations.size(); ++i) {
-                const shader::Tick& tick = parts[i].ticks[slot];
+                const shader::Tick& tick = mPopulations[i]->part().ticks[slot];
                 mPopulations[i]->recordTick(commands, tick, slot);
                 for (const std::uint32_t child : mPopulations[i]->effect().children)
                     mPopulations[i]->recordChildren(commands, tick, slot, *mPopulations[child]);
@@ -96,6 +95,12 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     commands.beginLabel("particles.appearance");
     population.recordAppearance(commands, *appearance.spheres, push);
     commands.endLabel();
+}
+
+std::vector<CompiledEffect> GpuSimulation::effects() const {
+    std::vector<CompiledEffect> effects;
+    for (const auto& population : mPopulations) effects.push_back(population->effect());
+    return effects;
 }
 
 std::uint64_t GpuSimulation::bytes() const {

@@ -60,6 +60,8 @@ class GpuSimulation {
     const CompiledEffect& effect(std::uint32_t population = 0) const {
         return mPopulations[population]->effect();
     }
+    /// Of all populations.
+    std::vector<CompiledEffect> effects() const;
     std::uint64_t bytes() const;  ///< of buffers
 
     /// The state after the recorded ticks, for tests, hashes, checkpoints and the reference.

@@ -65,6 +65,17 @@ bool hasOneMedium(const PreparedScene& prepared) {
     return media.size() == 1 && tints.size() == 1;
 }
 
+/// Whether light inside media or solids can be seen at all.
+bool doesMediumScatter(const scene::Scene& scene) {
+    const auto scatters = [](const dvec3& v) { return v != dvec3(0); };
+    return std::any_of(scene.media.begin(), scene.media.end(),
+                       [&](const scene::Medium& m) { return scatters(m.albedo * m.extinction); }) ||
+           std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const scene::Material& m) {
+                           return m.type == scene::MaterialType::Solid && scatters(m.scattering);
+                       });
+}
+
 float findLargestTint(const PreparedScene& prepared) {
     float largest = 1;
     const auto extend = [&](const vec3& tint) {
@@ -93,12 +104,13 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     needs.media = static_cast<std::uint32_t>(scene.media.size());
     for (const scene::Medium& medium : scene.media)
         if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
+    const bool scatters = doesMediumScatter(scene);
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
         needs.shadowStores |= shadows::storeBits(light.shadow);
-        if (light.type != scene::LightType::Directional || needs.shadowStores != 0)
-            needs.varyingLight = true;
+        if (light.type != scene::LightType::Directional || light.shadow != "none")
+            needs.varyingLight = scatters;
     }
     needs.oneMedium = hasOneMedium(prepared);
     needs.oneSource = needs.oneMedium && !needs.varyingLight;

@@ -24,6 +24,8 @@ class Device;
 
 namespace brume::render {
 
+class EffectParticles;
+
 /// A scene with its files loaded: what both the GPU renderer and the reference see.
 struct PreparedScene {
     scene::Scene scene;  ///< the materials of its effects' surfaces are those that they show
@@ -78,8 +80,10 @@ class Renderer {
   public:
     /// Uploads the scene and simulates its effects to their time. Throws an Error (input: unknown
     /// method, bad setting; failure: device).
+    /// Goes on with the simulations of `previous` (may be null) whose instances have the same keys
+    /// (scene::EffectInstance::key); it is of no use afterwards.
     Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
-             const Log& log);
+             const Log& log, EffectParticles* previous = nullptr);
     ~Renderer();
 
     /// Renders one frame and reads it back. May be called again (benchmarks): same image, new
@@ -88,6 +92,13 @@ class Renderer {
 
     /// Particles as simulated on the device, read back: for the reference.
     EffectContents readEffects() const;
+
+    /// Goes on to the new times of the scene's effects, of which nothing else has changed. False
+    /// where that takes a new renderer, which takeEffects() helps.
+    bool advance();
+
+    /// The simulations, for the renderer of the next frame; this one is of no use afterwards.
+    std::unique_ptr<EffectParticles> takeEffects();
 
     /// Builds the shadow maps and asks them at world positions: the share of a light (counted
     /// without the ambient ones) that arrives there, per channel.

@@ -180,6 +180,7 @@ class SceneReader {
     void readVolume(const JsonNode& node) {
         Volume volume;
         volume.file = filePath(node["file"]);
+        node.read("frameOffset", volume.frameOffset);
         node.read("density", volume.density);
         node.read("gridIndex", volume.gridIndex);
         volume.medium = mMedia.resolve(node["medium"]);

@@ -20,6 +20,7 @@ struct MapSettings {
     std::uint32_t opaqueFilter = 0;
     Focus focus;
     bool isKept = false;
+    bool hasCaustics = false;
 };
 
 /// Takes the maps' own settings out of those that go to the store.
@@ -42,6 +43,7 @@ MapSettings takeMapSettings(scene::Settings& settings, std::uint32_t faceCount) 
                         reader.number("focusZ", 0, -1e9, 1e9)};
     map.focus.radius = reader.number("focusRadius", 0, 0, 1e9);
     map.isKept = reader.boolean("keep", false);
+    map.hasCaustics = reader.boolean("caustics", false);
     return map;
 }
 
@@ -67,13 +69,15 @@ std::span<const scene::SettingInfo> listMapSettings() {
         {"focusY", "m", "0", "likewise"},
         {"focusZ", "m", "0", "likewise"},
         {"focusRadius", "m", "0", "how far that part reaches; 0: all casters; beyond it is light"},
+        {"caustics", "true, false", "false",
+         "glass gathers light where it stands across it (not with exact)"},
         {"keep", "true, false", "false", "build once and keep while the scene does not move"}};
     return kSettings;
 }
 
-Shadows::Shadows(gpu::Submitter& submitter, const Casters& casters,
-                 std::span<const scene::Light> lights, const scene::Settings& overrides)
-    : mDevice(&submitter.device()), mCasters(casters) {
+Shadows::Shadows(gpu::Device& device, const Casters& casters, std::span<const scene::Light> lights,
+                 const scene::Settings& overrides)
+    : mDevice(&device), mCasters(casters) {
     for (const scene::Light& light : lights) {
         LightMaps& maps = mLights.emplace_back();
         if (light.shadow == "none") continue;
@@ -99,19 +103,26 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     data.faceCount = faceCountFor(light);
     const MapSettings own = takeMapSettings(settings, data.faceCount);
     map->isKept = own.isKept;
+    if (own.hasCaustics && store == "exact")
+        throw inputError(
+            kDoing, "caustics",
+            "not made by exact, which follows straight rays; allowed with the other stores");
+    data.hasCaustics = own.hasCaustics;
     map->store = createStore(
         store, *mDevice, {mCasters.isColoured, mCasters.translucentTriangleCount > 0}, settings);
     const CasterChoice choice = store == "opaque"  ? CasterChoice::Opaque
                                 : store == "exact" ? CasterChoice::All
                                                    : CasterChoice::Translucent;
-    const Box3 bounds = boundsOf(mCasters, choice);
-    if (bounds.isEmpty()) return nullptr;
+    map->choice = choice;
+    map->bounds = boundsOf(mCasters, choice);
+    map->focus = own.focus;
+    if (map->bounds.isEmpty()) return nullptr;
     data.store = map->store->info().bit;
     data.channels = mCasters.isColoured ? 3 : 1;
     data.resolution = store == "opaque" ? own.opaqueResolution : own.resolution;
     data.filterRadius = store == "opaque" ? own.opaqueFilter : 0;
     map->store->allocate(data);
-    fitMap(light, bounds, own.focus, mCasters.origin, data.filterRadius + 2, data);
+    fitMap(light, map->bounds, map->focus, mCasters.origin, data.filterRadius + 2, data);
     data.spheres = mCasters.spheres->deviceAddress();
     data.boxes = mCasters.boxes->deviceAddress();
     data.volumes = mCasters.volumes->deviceAddress();
@@ -123,10 +134,7 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
 }
 
 void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure) {
-    std::vector<Map*> maps;
-    for (LightMaps& light : mLights)
-        for (Map* map : {light.opaque.get(), light.own.get()})
-            if (map) maps.push_back(map);
+    const std::vector<Map*> maps = allMaps();
     if (maps.empty()) return;
     const auto uploadMaps = [&] {
         submitter.submitAndWait("upload shadow maps", [&](gpu::Commands& commands) {
@@ -138,6 +146,62 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
         for (Map* map : maps) map->bins->declareCount(frame, map->buffer, spheres);
     });
     for (Map* map : maps) map->bins->allocate(map->data);
+    linkOpaqueMaps();
+    uploadMaps();
+}
+
+std::vector<Shadows::Map*> Shadows::allMaps() const {
+    std::vector<Map*> maps;
+    for (const LightMaps& light : mLights)
+        for (Map* map : {light.opaque.get(), light.own.get()})
+            if (map) maps.push_back(map);
+    return maps;
+}
+
+void Shadows::reserve(std::uint32_t pairs) {
+    for (Map* map : allMaps()) map->bins->reserve(map->data, pairs);
+    linkOpaqueMaps();
+}
+
+void Shadows::fit(std::span<const scene::Light> lights, const dvec3& origin,
+                  const Box3& translucentBounds) {
+    mCasters.origin = origin;
+    mCasters.translucentBounds = translucentBounds;
+    for (std::size_t i = 0; i < mLights.size(); ++i)
+        for (Map* map : {mLights[i].opaque.get(), mLights[i].own.get()}) {
+            if (!map) continue;
+            const Box3 bounds = boundsOf(mCasters, map->choice);
+            if (!bounds.isEmpty()) map->bounds = bounds;
+            fitMap(lights[i], map->bounds, map->focus, origin, map->data.filterRadius + 2,
+                   map->data);
+        }
+}
+
+void Shadows::recordMaps(gpu::Commands& commands, gpu::UploadRing& ring) const {
+    for (const LightMaps& light : mLights)
+        for (const Map* map : {light.opaque.get(), light.own.get()})
+            if (map) ring.write(commands, map->buffer, std::span(&map->data, 1));
+}
+
+std::uint64_t Shadows::droppedPairs() const {
+    std::uint64_t dropped = 0;
+    for (const LightMaps& light : mLights)
+        for (const Map* map : {light.opaque.get(), light.own.get()})
+            if (map) dropped += map->bins->droppedPairs();
+    return dropped;
+}
+
+bool Shadows::keepsMaps() const {
+    const std::vector<Map*> maps = allMaps();
+    return std::any_of(maps.begin(), maps.end(), [](const Map* map) { return map->isKept; });
+}
+
+void Shadows::invalidate() {
+    for (Map* map : allMaps()) map->isBuilt = false;
+}
+
+// Once the lists' memory is known.
+void Shadows::linkOpaqueMaps() {
     for (LightMaps& light : mLights) {
         if (!light.own) light.own = std::move(light.opaque);
         if (!light.own) continue;
@@ -147,7 +211,6 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
                                                                             : nullptr;
         if (opaque) light.own->data.opaque = opaque->buffer.deviceAddress();
     }
-    uploadMaps();
 }
 
 void Shadows::declare(frame::FrameBuilder& frame, frame::BufferRef spheres) {

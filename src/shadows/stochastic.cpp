@@ -5,7 +5,8 @@
 //         17(8), 2011, section 3.6. doi:10.1109/TVCG.2010.123; M. McGuire, M. Mara: "A
 //         phenomenological scattering model for order-independent transparency", I3D 2016,
 //         section 4.3. doi:10.1145/2856400.2856418
-// Equations: section 3.2, alpha correction -> stochasticTransmittance()
+// Equations: section 3.2, alpha correction -> stochasticTransmittance(); McGuire and Mara, eq. 10
+//         to 12 (caustics) -> causticGain() of shaders/shadows/common/casters.glsl
 // Differs: media end rays at exponentially distributed depths, not at their front, so that they
 //         shadow themselves rightly; one random number for all channels, from a tile of blue noise
 //         that is moved by the caster's id; the correction divides by what the samples themselves

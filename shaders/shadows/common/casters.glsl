@@ -129,4 +129,30 @@ vec3 surfaceTransmittance(ShadowTriangle triangle, ShadowMaterial material, vec3
     return 1.0 - alpha * (1.0 - material.transmission * color.rgb);
 }
 
+// Caustics by density: glass that stands across the light throws less shadow, glass that it grazes
+// more. McGuire and Mara 2016, eq. 10 to 12; s^0.2 is left out where s is 0.
+
+// A unit vector as an octahedron unfolded to a square, 16 bits per axis.
+vec3 unpackNormal(uint bits) {
+    vec2 p = unpackSnorm2x16(bits);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-n.z, 0.0);
+    return normalize(n - vec3(mix(vec2(-fold), vec2(fold), greaterThanEqual(n.xy, vec2(0))), 0.0));
+}
+
+// What the share of light that a surface takes is multiplied by; 1 where `ior` is 1.
+float causticGain(ShadowTriangle triangle, float ior, vec3 weights, vec3 direction) {
+    float s = clamp(0.5 * (ior - 1.0), 0.0, 1.0);
+    if (s == 0.0) return 1.0;
+    vec3 normal = normalize(weights.x * unpackNormal(triangle.normalA) +
+                            weights.y * unpackNormal(triangle.normalB) +
+                            weights.z * unpackNormal(triangle.normalC));
+    float g = 1.0 - 2.0 * pow(min(abs(dot(normal, direction)), 1.0), 128.0 * s * s);
+    return 1.0 + g * pow(s, 0.2);
+}
+
+vec3 gatherLight(vec3 transmittance, float gain) {
+    return 1.0 - min(gain * (1.0 - transmittance), vec3(1));
+}
+
 #endif

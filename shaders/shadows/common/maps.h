@@ -53,12 +53,14 @@ struct ShadowMap {
     uint64_t boxOffsets, boxPairs;
     uint64_t triangleOffsets, trianglePairs;
     uint isIndependent;  // stochastic: samples of a texel are not stratified
+    uint hasCaustics;    // glass gathers its light where it meets the glass at right angles
 };
 
 // A triangle of any mesh, in metres relative to the camera.
 struct ShadowTriangle {
     vec3 a, b, c;
     vec2 uvA, uvB, uvC;
+    uint normalA, normalB, normalC;  // packNormal()
     uint material;
     uint id;
 };
@@ -69,6 +71,7 @@ struct ShadowMaterial {
     vec3 extinction;    // solid, 1/m
     float coverage;
     float alphaCutoff;  // < 0: none
+    float ior;
     uvec2 textureSize;  // 0: none
     uint64_t texture;   // vec4[]
 };
@@ -104,6 +107,7 @@ struct ShadowBinPush {
     uint count;        // of casters; starts: of pairs
     uint first;        // index of the first caster
     uint tileCount;
+    uint capacity;     // pairs that there is room for; more are left out
 };
 
 BRUME_CONST uint kCasterSphere = 0u;
@@ -113,7 +117,7 @@ BRUME_CONST uint kCasterTriangle = 2u;
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::ShadowTriangle) == 68);
+static_assert(sizeof(brume::shader::ShadowTriangle) == 80);
 static_assert(sizeof(brume::shader::ShadowMaterial) == 56);
 static_assert(offsetof(brume::shader::ShadowMap, opaque) == 96);
 static_assert(sizeof(brume::shader::ShadowBinPush) == 56);

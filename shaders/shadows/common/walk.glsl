@@ -72,6 +72,7 @@ void walkBoxes(ShadowMap map, uint tile, Ray ray) {
 struct SolidHit {
     float t;
     vec3 extinction;  // that begins, or with a minus ends
+    float gain;       // of the share of light that is taken behind this face
 };
 SolidHit solidHits[kMaxSolidHits];
 uint solidHitCount = 0u;
@@ -97,20 +98,27 @@ void walkTriangles(ShadowMap map, uint tile, Ray ray) {
         if (material.type == kMaterialOpaque || !intersectTriangle(ray, triangle, hit) ||
             hit.t <= 0.0)
             continue;
-        if (material.type == kMaterialSolid)
-            insertSolidHit(
-                SolidHit(hit.t, hit.isFront ? material.extinction : -material.extinction));
-        else
-            takeSurface(hit.t, surfaceTransmittance(triangle, material, hit.weights),
+        float gain = map.hasCaustics != 0u ? causticGain(triangle, material.ior, hit.weights,
+                                                         ray.direction)
+                                           : 1.0;
+        if (material.type == kMaterialSolid) {
+            vec3 change = hit.isFront ? material.extinction : -material.extinction;
+            insertSolidHit(SolidHit(hit.t, change, gain));
+        } else {
+            vec3 t = surfaceTransmittance(triangle, material, hit.weights);
+            takeSurface(hit.t, map.hasCaustics != 0u ? gatherLight(t, gain) : t,
                         kTriangleIds | triangle.id);
+        }
     }
     vec3 extinction = vec3(0);
     for (uint i = 0u; i + 1u < solidHitCount; ++i) {
         extinction += solidHits[i].extinction;
         float l = solidHits[i + 1u].t - solidHits[i].t;
-        if (l > 0.0 && max(extinction.x, max(extinction.y, extinction.z)) > 1e-12)
-            takePiece(solidHits[i].t, solidHits[i + 1u].t, max(extinction, 0.0) * l,
-                      kSolidIds | i);
+        if (l <= 0.0 || max(extinction.x, max(extinction.y, extinction.z)) <= 1e-12) continue;
+        vec3 depth = max(extinction, 0.0) * l;
+        if (map.hasCaustics != 0u)
+            depth = -log(max(gatherLight(exp(-depth), solidHits[i].gain), 1e-30));
+        takePiece(solidHits[i].t, solidHits[i + 1u].t, depth, kSolidIds | i);
     }
 }
 
