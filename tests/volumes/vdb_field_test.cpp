@@ -11,6 +11,7 @@ namespace brume::volumes {
 namespace {
 
 using test::TestGrid;
+using test::writeVdb;
 
 /// An effect with one module that samples that grid of the file.
 scene::Effect effectWith(const std::filesystem::path& file, const std::string& grid) {
@@ -91,7 +92,8 @@ TEST(VdbField, LevelSets_HaveASurfaceThatFacesOutwards) {
     double volume = 0;
     for (const scene::EmitterTriangle& t : field.surface)
         volume += glm::dot(t.a, glm::cross(t.b, t.c)) / 6;
-    EXPECT_NEAR(volume, 4.0 / 3 * kPi * 125, 25);
+    // Flat faces a fifth of the radius wide lie inside the ball; turned inwards it would be negative.
+    EXPECT_NEAR(volume, 4.0 / 3 * kPi * 125, 60);
 }
 
 TEST(VdbField, Faults_AreNamedAtTheirPlace) {
