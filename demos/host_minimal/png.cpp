@@ -17,9 +17,8 @@ void put(std::string& bytes, std::uint32_t value) {
 void putChunk(std::ofstream& file, const std::string& type, const std::string& data) {
     std::string head, body = type + data, tail;
     put(head, static_cast<std::uint32_t>(data.size()));
-    put(tail, static_cast<std::uint32_t>(
-                  crc32(0, reinterpret_cast<const Bytef*>(body.data()),
-                        static_cast<uInt>(body.size()))));
+    put(tail, static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()),
+                                               static_cast<uInt>(body.size()))));
     file << head << body << tail;
 }
 
@@ -63,8 +62,8 @@ void Renderer::writePng(const std::string& file) {
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = needed.size;
     allocate.memoryTypeIndex =
-        findMemory(needed.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+        findMemory(needed.memoryTypeBits,
+                   VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     VkDeviceMemory memory = VK_NULL_HANDLE;
     vkAllocateMemory(device, &allocate, nullptr, &memory);
     vkBindBufferMemory(device, buffer, memory, 0);

@@ -23,8 +23,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
-void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
-             VkImageLayout from, VkImageLayout to) {
+void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
+             VkImageLayout to) {
     VkImageMemoryBarrier2 info{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     info.srcStageMask = info.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     info.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -108,9 +108,9 @@ void Renderer::createInstance(bool validate) {
     messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     messenger.pfnUserCallback = receive;
     messenger.pUserData = &mMessages;
-    check(reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
-              instance, "vkCreateDebugUtilsMessengerEXT"))(instance, &messenger, nullptr,
-                                                           &mMessenger),
+    check(reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+              vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"))(
+              instance, &messenger, nullptr, &mMessenger),
           "creating messenger");
 }
 
@@ -278,8 +278,8 @@ void Renderer::setCamera() {
     const double view[16] = {1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0, -c * eye, -s * eye - distance,
                              1};
     // Reversed and infinite: depth = near / distance. Vulkan's clip space has y downwards.
-    const double clip[16] = {focal * height / width, 0, 0, 0, 0, -focal, 0, 0, 0, 0, 0, -1, 0, 0,
-                             near, 0};
+    const double clip[16] = {
+        focal * height / width, 0, 0, 0, 0, -focal, 0, 0, 0, 0, 0, -1, 0, 0, near, 0};
     std::memcpy(viewFromWorld, view, sizeof(view));
     std::memcpy(clipFromView, clip, sizeof(clip));
 }
@@ -323,8 +323,8 @@ void Renderer::drawOpaque(VkCommandBuffer commands, double seconds) {
     Push push{};
     for (int i = 0; i < 16; ++i)
         for (int k = 0; k < 4; ++k)
-            push.clipFromWorld[i] += static_cast<float>(clipFromView[4 * k + i % 4] *
-                                                        viewFromWorld[i / 4 * 4 + k]);
+            push.clipFromWorld[i] +=
+                static_cast<float>(clipFromView[4 * k + i % 4] * viewFromWorld[i / 4 * 4 + k]);
     push.angle = static_cast<float>(seconds);
     vkCmdPushConstants(commands, mLayout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);
     vkCmdDraw(commands, 42, 1, 0, 0);

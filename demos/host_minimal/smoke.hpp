@@ -30,10 +30,12 @@ class Smoke {
         std::copy_n(host.clipFromView, 16, view.clipFromView);
         view.width = static_cast<int32_t>(host.width);
         view.height = static_cast<int32_t>(host.height);
-        view.color = {host.color.image, host.color.view, host.color.format,
-                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, host.width, host.height};
-        view.depth = {host.depth.image, host.depth.view, host.depth.format,
-                      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, host.width, host.height};
+        view.color = {host.color.image,  host.color.view,
+                      host.color.format, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                      host.width,        host.height};
+        view.depth = {host.depth.image,  host.depth.view,
+                      host.depth.format, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                      host.width,        host.height};
         mContext.beginFrame(++mFrame);
         mScene.cmdSimulate(commands, seconds);
         mScene.cmdRender(commands, view);

@@ -50,7 +50,7 @@ extern "C" {
         return type;                 \
     }())
 #else
-#define BRUME_INIT(Type) ((Type){sizeof(Type)})
+#define BRUME_INIT(Type) ((Type){.structSize = sizeof(Type)})
 #endif
 
 /** Everything that one device has of Brume. */
@@ -95,11 +95,11 @@ typedef enum BrumeFeatureBits {
 
 /** An image in linear RGBA, row after row from the top left; made by a reader, freed by `release`. */
 typedef struct BrumePixels {
-    uint32_t structSize;
-    uint32_t width;
-    uint32_t height;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t width; /**< pixels */
+    uint32_t height; /**< pixels */
     const float* rgba; /**< 4 * width * height; alpha is not multiplied into the colour */
-    void* owner;
+    void* owner; /**< passed to `release` */
     void (*release)(void* owner); /**< may be null */
 } BrumePixels;
 
@@ -107,28 +107,28 @@ typedef struct BrumePixels {
 typedef struct BrumeTile {
     double lo[3]; /**< first voxel */
     double hi[3]; /**< last voxel, inclusive */
-    float value;
+    float value; /**< density */
 } BrumeTile;
 
 /** A sparse density field. Voxel values sit at integer indices, trilinear between; 0 outside. */
 typedef struct BrumeDensity {
-    uint32_t structSize;
-    uint32_t brickCount;
-    uint32_t tileCount;
-    double worldFromIndex[16];
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t brickCount; /**< of `origins` and `values` */
+    uint32_t tileCount; /**< of `tiles` */
+    double worldFromIndex[16]; /**< affine, can be inverted */
     const int32_t* origins; /**< 3 per brick, multiples of 8, each brick only once */
     const float* values;    /**< 9 * 9 * 9 per brick, x fastest: the corners of its 8^3 cells */
-    const BrumeTile* tiles;
-    void* owner;
+    const BrumeTile* tiles; /**< may be null if there are none */
+    void* owner; /**< passed to `release` */
     void (*release)(void* owner); /**< may be null; called once Brume has a copy */
 } BrumeDensity;
 
 /** What a context lives on. Handles must outlive it. */
 typedef struct BrumeContextCreateInfo {
-    uint32_t structSize;
+    uint32_t structSize; /**< set by BRUME_INIT */
     uint32_t headerVersion; /**< BRUME_HEADER_VERSION */
-    VkInstance instance;
-    VkPhysicalDevice physicalDevice;
+    VkInstance instance; /**< the host's */
+    VkPhysicalDevice physicalDevice; /**< the one of `device` */
     /** Vulkan 1.3 with dynamicRendering, synchronization2, maintenance4, bufferDeviceAddress,
      *  scalarBlockLayout, timelineSemaphore, shaderInt64, independentBlend,
      *  fragmentStoresAndAtomics, shaderStorageImageExtendedFormats and VK_KHR_push_descriptor. */
@@ -143,14 +143,14 @@ typedef struct BrumeContextCreateInfo {
     const VkAllocationCallbacks* allocator; /**< copied; may be null */
     /** Device memory through the host: both or neither. Each call is one VkDeviceMemory. */
     VkResult (*allocateMemory)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
-    void (*freeMemory)(void* user, VkDeviceMemory memory);
-    void* memoryUser;
+    void (*freeMemory)(void* user, VkDeviceMemory memory); /**< see allocateMemory */
+    void* memoryUser; /**< passed to both */
     uint64_t memoryBudgetBytes; /**< of device memory: more is refused; 0 is no limit */
     uint32_t shadowPairBudget;  /**< per shadow map, pairs of caster and tile, 16 bytes each; 0 is
                                      2^18. What does not fit casts no shadow and is counted. */
-    uint32_t reserved;
+    uint32_t reserved; /**< 0 */
     void (*log)(void* user, BrumeLogLevel level, const char* message); /**< may be null */
-    void* logUser;
+    void* logUser; /**< passed to `log` */
     /** Decodes an image file held in memory; without it scenes with textures are refused. */
     BrumeResult (*readImage)(void* user, const char* name, const void* bytes, uint64_t byteCount,
                              BrumePixels* pixels);
@@ -158,18 +158,28 @@ typedef struct BrumeContextCreateInfo {
      *  refused. `gridIndex` -1: the only grid of that name. */
     BrumeResult (*readVolume)(void* user, const char* file, const char* grid, int32_t gridIndex,
                               BrumeDensity* density);
-    void* readUser;
+    void* readUser; /**< passed to the readers */
 } BrumeContextCreateInfo;
+
+/** What a scene's brumeCmdDraw() is drawn into. */
+typedef enum BrumeInside {
+    BRUME_INSIDE_NOTHING = 0,     /**< brumeCmdDraw() is not used */
+    BRUME_INSIDE_COLOR = 1,       /**< rendering with the view's colour format alone */
+    BRUME_INSIDE_COLOR_DEPTH = 2, /**< and with its depth format, neither tested nor written */
+    BRUME_INSIDE_MAX_ENUM = 0x7fffffff
+} BrumeInside;
 
 /** Where a scene comes from; all may be null for an empty one. */
 typedef struct BrumeSceneCreateInfo {
-    uint32_t structSize;
-    uint32_t reserved;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t hostLayers; /**< 1: for brumeCmdBeginLayers(); the method is "weighted" then */
     const char* file; /**< a scene file; its camera and image size are not used */
     const char* text; /**< the text of one instead */
     const char* directory; /**< what paths in `text` are relative to; null: the current directory */
     const char* method;    /**< null: the scene's own, or "sorted" where that is not for hosts */
     const char* settings;  /**< of the method, "key=value key=value"; may be null */
+    BrumeInside inside; /**< for brumeCmdDraw(); the method is "sorted" or "unordered" then */
+    uint32_t reserved; /**< 0 */
 } BrumeSceneCreateInfo;
 
 /** Phase functions. */
@@ -182,8 +192,8 @@ typedef enum BrumePhase {
 
 /** What smoke is made of; per unit density. */
 typedef struct BrumeMedium {
-    uint32_t structSize;
-    BrumePhase phase;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    BrumePhase phase; /**< phase function */
     const char* name;     /**< by which effects ask for it */
     double extinction[3]; /**< 1/m, >= 0 */
     double albedo[3];     /**< [0, 1] */
@@ -202,10 +212,10 @@ typedef enum BrumeLightType {
 
 /** A light of the host's, for what Brume draws. */
 typedef struct BrumeLight {
-    uint32_t structSize;
-    BrumeLightType type;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    BrumeLightType type; /**< kind of light */
     double color[3]; /**< radiance (ambient), irradiance (directional), intensity (point, spot) */
-    double position[3];
+    double position[3]; /**< m; point and spot */
     double direction[3]; /**< in which the light travels; any length but 0 */
     double innerAngle;   /**< radians from the axis, full light within */
     double outerAngle;   /**< no light outside; at most pi/2 */
@@ -216,22 +226,22 @@ typedef struct BrumeLight {
 
 /** A soft sphere. */
 typedef struct BrumeSphere {
-    double center[3];
-    float radius;
-    float density;
+    double center[3]; /**< m, world */
+    float radius; /**< m, >= 0 */
+    float density; /**< per unit of the medium, >= 0 */
     float tint[3]; /**< multiplies albedo and emission; all 0 counts as 1 */
     uint32_t smooth; /**< 0: constant density; 1: density (1 - r^2/R^2)^2 */
 } BrumeSphere;
 
 /** A particle effect, running from the call on. */
 typedef struct BrumeEffect {
-    uint32_t structSize;
-    uint32_t reserved;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t reserved; /**< 0 */
     const char* file; /**< an effect file */
     const char* text; /**< the text of one instead */
     BrumeId medium;   /**< 0: the one that the effect names */
     double worldFromEffect[16]; /**< all 0: identity; rotation, translation, uniform scale */
-    uint64_t seed;
+    uint64_t seed; /**< equal seeds give equal particles */
     double time;         /**< s that have passed already */
     double boundsRadius; /**< m about the effect's origin, which shadow maps must show; 0: estimated
                               from speeds and lifetimes */
@@ -239,48 +249,51 @@ typedef struct BrumeEffect {
 
 /** A density field in the scene. */
 typedef struct BrumeVolume {
-    uint32_t structSize;
-    uint32_t reserved;
-    BrumeId medium;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t reserved; /**< 0 */
+    BrumeId medium; /**< of the density */
     const BrumeDensity* density; /**< copied */
 } BrumeVolume;
 
 /** An image of the host's: one mip level, one layer, one sample. */
 typedef struct BrumeImage {
-    VkImage image;
-    VkImageView view;
-    VkFormat format;
+    VkImage image; /**< the host's */
+    VkImageView view; /**< of all of the image */
+    VkFormat format; /**< of image and view */
     VkImageLayout layout; /**< in which it comes and goes again */
-    uint32_t width;
-    uint32_t height;
+    uint32_t width; /**< pixels */
+    uint32_t height; /**< pixels */
 } BrumeImage;
 
 /** How the host draws its opaque scene. */
 typedef struct BrumeView {
-    uint32_t structSize;
+    uint32_t structSize; /**< set by BRUME_INIT */
     uint32_t leftHanded; /**< orthographic only: 1 if the view looks along +z */
     double viewFromWorld[16]; /**< rotation and translation */
     /** Perspective or orthographic, symmetric; conventional, reversed and infinite depth ranges are
      *  told by the matrix itself. */
     double clipFromView[16];
-    int32_t x, y; /**< viewport in pixels of both images */
-    int32_t width, height; /**< a negative height turns the image over, as in VkViewport */
-    float minDepth, maxDepth; /**< of the viewport; both 0 counts as 0 and 1 */
+    int32_t x; /**< left edge of the viewport in pixels of both images */
+    int32_t y; /**< top edge; bottom edge for a negative height */
+    int32_t width; /**< of the viewport */
+    int32_t height; /**< negative: turns the image over, as in VkViewport */
+    float minDepth; /**< of the viewport; both 0 counts as 0 and 1 */
+    float maxDepth; /**< likewise */
     BrumeImage color; /**< usage COLOR_ATTACHMENT and SAMPLED; linear, or sRGB by its format */
     BrumeImage depth; /**< usage SAMPLED; the view has the depth aspect only; MSAA resolved */
 } BrumeView;
 
 /** Time that has passed. */
 typedef struct BrumeStep {
-    uint32_t structSize;
-    uint32_t reserved;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t reserved; /**< 0 */
     double seconds; /**< since the last step, >= 0 and finite */
 } BrumeStep;
 
 /** What there is and what became of it, as far as the device has told; asking never waits. */
 typedef struct BrumeCounters {
-    uint32_t structSize;
-    uint32_t effects;
+    uint32_t structSize; /**< set by BRUME_INIT */
+    uint32_t effects; /**< instances, without their sub-emitters */
     uint64_t frames;      /**< rendered by the scene */
     uint64_t sphereSlots; /**< spheres and room for particles */
     uint64_t boxes;       /**< bricks and tiles of volumes */
@@ -355,6 +368,30 @@ BRUME_API BrumeResult brumeCmdShadow(BrumeScene scene, VkCommandBuffer commands,
  *  the viewport of its colours. Outside of rendering. */
 BRUME_API BrumeResult brumeCmdRender(BrumeScene scene, VkCommandBuffer commands,
                                      const BrumeView* view);
+
+/** As brumeCmdRender(), but stops where the host may draw transparent things of its own into the same
+ *  order-independent composition: rendering has begun, over the size of the viewport, with two
+ *  attachments R32G32B32A32_SFLOAT that take what brume_store.glsl writes. The scene was created with
+ *  hostLayers. Ends with brumeCmdEndLayers(). */
+BRUME_API BrumeResult brumeCmdBeginLayers(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view);
+/** Ends the rendering that brumeCmdBeginLayers() has begun and composes the image. */
+BRUME_API BrumeResult brumeCmdEndLayers(BrumeScene scene, VkCommandBuffer commands);
+
+/** As brumeCmdRender(), but all except for the drawing itself: for scenes with `inside` set. The
+ *  viewport begins at 0, 0. Outside of rendering, after the opaque scene. */
+BRUME_API BrumeResult brumeCmdPrepareDraw(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view);
+/** Draws into the host's rendering, over the colours that are there. Viewport and scissor are the
+ *  host's: those of the view of brumeCmdPrepareDraw(), once after each. */
+BRUME_API BrumeResult brumeCmdDraw(BrumeScene scene, VkCommandBuffer commands);
+
+/** The shadow map of a light for brume_shadow.glsl, 0 where it has none. Valid for commands after
+ *  brumeCmdShadow() until the scene's memory is made anew. `light`: an id; of a scene file's lights:
+ *  brumeGetLight(). */
+BRUME_API BrumeResult brumeGetShadow(BrumeScene scene, BrumeId light, VkDeviceAddress* address);
+/** The id of the scene's light number `index`, in the order of file and calls; 0 beyond the last. */
+BRUME_API BrumeId brumeGetLight(BrumeScene scene, uint32_t index);
 
 /** Counts of the newest finished frame, or of a newer one. */
 BRUME_API BrumeResult brumeGetCounters(BrumeScene scene, BrumeCounters* counters);

@@ -14,6 +14,7 @@ namespace brume {
 /// What a call has refused or failed at.
 class ApiError : public std::runtime_error {
   public:
+    /// With the text of brumeLastError().
     explicit ApiError(BrumeResult result)
         : std::runtime_error(std::string(brumeResultName(result)) + ": " + brumeLastError()),
           mResult(result) {}
@@ -41,10 +42,13 @@ Struct init() {
 class Context {
   public:
     Context() = default;
+    /// As brumeCreateContext().
     explicit Context(const BrumeContextCreateInfo& info) {
         check(brumeCreateContext(&info, &mHandle));
     }
+    /// Moves the handle.
     Context(Context&& other) noexcept : mHandle(std::exchange(other.mHandle, nullptr)) {}
+    /// Swaps the handles.
     Context& operator=(Context&& other) noexcept {
         std::swap(mHandle, other.mHandle);
         return *this;
@@ -64,10 +68,13 @@ class Context {
 class Scene {
   public:
     Scene() = default;
+    /// As brumeCreateScene().
     Scene(const Context& context, const BrumeSceneCreateInfo& info) {
         check(brumeCreateScene(context.get(), &info, &mHandle));
     }
+    /// Moves the handle.
     Scene(Scene&& other) noexcept : mHandle(std::exchange(other.mHandle, nullptr)) {}
+    /// Swaps the handles.
     Scene& operator=(Scene&& other) noexcept {
         std::swap(mHandle, other.mHandle);
         return *this;

@@ -102,11 +102,12 @@ Allocation Device::allocate(const VkMemoryRequirements& needed, MemoryKind kind,
     const std::uint32_t heap = mMemory.memoryTypes[type].heapIndex;
     const std::uint64_t inUse = mRegistry->allocatedBytes(heap);
     const std::uint64_t heapBytes = mMemory.memoryHeaps[heap].size;
-    const auto refuse = [&](const std::string& limit) {
+    const auto refuse = [&](const std::string& limit,
+                            VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         return VulkanError(
             failure(kDoing, object,
                     fmt::format("needs {:.1f} MiB, but {}", toMiB(needed.size), limit)),
-            VK_ERROR_OUT_OF_DEVICE_MEMORY);
+            result);
     };
     const std::string heapText = fmt::format("the memory heap has {:.1f} MiB, {:.1f} MiB in use",
                                              toMiB(heapBytes), toMiB(inUse));
@@ -134,7 +135,7 @@ Allocation Device::allocate(const VkMemoryRequirements& needed, MemoryKind kind,
             ? mMemoryHooks.allocate(mMemoryHooks.user, &info, &allocation.memory)
             : mTable->vkAllocateMemory(mDevice, &info, allocator(), &allocation.memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        throw refuse("the device is out of memory; " + heapText);
+        throw refuse("the device is out of memory; " + heapText, result);
     check(result, kDoing, object);
     return allocation;
 }

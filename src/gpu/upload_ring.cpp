@@ -25,10 +25,11 @@ void UploadRing::writeBytes(Commands& commands, const Buffer& target,
     if (mUsed + bytes.size() > slot.bytes()) {
         // Copies recorded from the old buffer keep it alive until the frame is retired.
         constexpr std::uint64_t kLeast = 1 << 16;
-        slot = Buffer(*mDevice, {.name = mName,
-                                 .bytes = std::max({kLeast, 2 * slot.bytes(),
-                                                    2 * std::uint64_t{bytes.size()}}),
-                                 .memory = MemoryKind::Upload});
+        slot =
+            Buffer(*mDevice,
+                   {.name = mName,
+                    .bytes = std::max({kLeast, 2 * slot.bytes(), 2 * std::uint64_t{bytes.size()}}),
+                    .memory = MemoryKind::Upload});
         mUsed = 0;
     }
     std::memcpy(static_cast<std::byte*>(slot.mapped()) + mUsed, bytes.data(), bytes.size());

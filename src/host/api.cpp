@@ -189,8 +189,7 @@ BRUME_API BrumeResult brumeRemove(BrumeScene scene, BrumeId id) {
 }
 
 BRUME_API BrumeResult brumePrepare(BrumeScene scene, const BrumeView* view) {
-    return guard(
-        [&] { toScene("brumePrepare", scene).prepare(readStruct("brumePrepare", view)); });
+    return guard([&] { toScene("brumePrepare", scene).prepare(readStruct("brumePrepare", view)); });
 }
 
 BRUME_API BrumeResult brumeCmdSimulate(BrumeScene scene, VkCommandBuffer commands,
@@ -212,6 +211,44 @@ BRUME_API BrumeResult brumeCmdRender(BrumeScene scene, VkCommandBuffer commands,
     return record("brumeCmdRender", scene, commands, [&](brume::host::Scene& s) {
         s.render(commands, readStruct("brumeCmdRender", view));
     });
+}
+
+BRUME_API BrumeResult brumeCmdBeginLayers(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view) {
+    return record("brumeCmdBeginLayers", scene, commands, [&](brume::host::Scene& s) {
+        s.beginLayers(commands, readStruct("brumeCmdBeginLayers", view));
+    });
+}
+
+BRUME_API BrumeResult brumeCmdEndLayers(BrumeScene scene, VkCommandBuffer commands) {
+    return record("brumeCmdEndLayers", scene, commands,
+                  [&](brume::host::Scene& s) { s.endLayers(commands); });
+}
+
+BRUME_API BrumeResult brumeCmdPrepareDraw(BrumeScene scene, VkCommandBuffer commands,
+                                          const BrumeView* view) {
+    return record("brumeCmdPrepareDraw", scene, commands, [&](brume::host::Scene& s) {
+        s.prepareDraw(commands, readStruct("brumeCmdPrepareDraw", view));
+    });
+}
+
+BRUME_API BrumeResult brumeCmdDraw(BrumeScene scene, VkCommandBuffer commands) {
+    return record("brumeCmdDraw", scene, commands,
+                  [&](brume::host::Scene& s) { s.draw(commands); });
+}
+
+BRUME_API BrumeResult brumeGetShadow(BrumeScene scene, BrumeId light, VkDeviceAddress* address) {
+    if (address) *address = 0;
+    return guard([&] {
+        if (!address) throw refuse("brumeGetShadow", "address", "it is null");
+        *address = toScene("brumeGetShadow", scene).shadowOf(light);
+    });
+}
+
+BRUME_API BrumeId brumeGetLight(BrumeScene scene, uint32_t index) {
+    BrumeId id = 0;
+    guard([&] { id = toScene("brumeGetLight", scene).model().light(index); });
+    return id;
 }
 
 BRUME_API BrumeResult brumeGetCounters(BrumeScene scene, BrumeCounters* counters) {

@@ -24,9 +24,9 @@ void check(const BrumeContextCreateInfo& info) {
         if (!isGiven) throw refuse(kCreate, what, "it is null");
     };
     if (info.headerVersion / 1000 != BRUME_HEADER_VERSION / 1000)
-        throw refuse(kCreate, "headerVersion",
-                     fmt::format("it is {}, allowed is {}", info.headerVersion,
-                                 BRUME_HEADER_VERSION));
+        throw refuse(
+            kCreate, "headerVersion",
+            fmt::format("it is {}, allowed is {}", info.headerVersion, BRUME_HEADER_VERSION));
     require(info.instance, "instance");
     require(info.physicalDevice, "physicalDevice");
     require(info.device, "device");
@@ -81,9 +81,9 @@ Context::~Context() { mScenes.clear(); }
 
 void Context::beginFrame(std::uint64_t frameIndex) {
     if (mFrame > 0 && frameIndex <= mFrameIndex)
-        throw refuse("brumeBeginFrame", "frameIndex",
-                     fmt::format("it is {}, must be above the last one's {}", frameIndex,
-                                 mFrameIndex));
+        throw refuse(
+            "brumeBeginFrame", "frameIndex",
+            fmt::format("it is {}, must be above the last one's {}", frameIndex, mFrameIndex));
     // Slots go by the count of frames, so that a host may leave indices out.
     mFrameIndex = frameIndex;
     mSlot = static_cast<std::uint32_t>(mFrame % mSerials.size());
@@ -94,6 +94,10 @@ void Context::beginFrame(std::uint64_t frameIndex) {
 
 void Context::requireFrame(const char* call) const {
     if (mFrame == 0) throw refuse(call, "", "no frame has begun, call brumeBeginFrame() first");
+}
+
+void Context::forgetFrame() {
+    for (const auto& scene : mScenes) scene->forgetFrame();
 }
 
 Scene& Context::addScene(std::unique_ptr<Scene> scene) {

@@ -43,6 +43,9 @@ class Context {
     /// Throws an input Error unless a frame has begun.
     void requireFrame(const char* call) const;
 
+    /// As Scene::forgetFrame(), of all scenes.
+    void forgetFrame();
+
     Scene& addScene(std::unique_ptr<Scene> scene);
     void removeScene(const Scene* scene);
 

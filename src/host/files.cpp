@@ -98,8 +98,8 @@ volumes::VolumeGrid makeGrid(const BrumeDensity& density, const std::string& doi
                         density.origins[3 * i + 2]};
         for (int axis = 0; axis < 3; ++axis)
             if (brick.origin[axis] % volumes::kBrickCells != 0)
-                throw refuseField(fmt::format("brick {} begins at {}, allowed are multiples of 8", i,
-                                              brick.origin[axis]));
+                throw refuseField(fmt::format("brick {} begins at {}, allowed are multiples of 8",
+                                              i, brick.origin[axis]));
         brick.valueOffset = static_cast<std::uint32_t>(i * volumes::kBrickValueCount);
         const auto values = grid.values.begin() + brick.valueOffset;
         brick.maxValue = *std::max_element(values, values + volumes::kBrickValueCount);
@@ -175,7 +175,8 @@ double estimateReach(const scene::Effect& effect) {
         const double life = emitter.lifetime.y;
         // With drag, speeds decay towards the wind and that of falling freely.
         const double speedTime = drag > 0 ? std::min(life, 1 / drag) : life;
-        const double fall = drag > 0 ? acceleration / drag * life : 0.5 * acceleration * life * life;
+        const double fall =
+            drag > 0 ? acceleration / drag * life : 0.5 * acceleration * life * life;
         reach = std::max(reach, reachOf(emitter) + emitter.speed.y * speedTime +
                                     std::min(fall, 0.5 * acceleration * life * life) + wind * life);
     }

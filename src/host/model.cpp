@@ -96,8 +96,8 @@ void Model::adoptScene(scene::Scene scene) {
 
 void Model::addVolumeOf(const scene::Volume& volume) {
     mVolumeIds.push_back(nextId());
-    volumes::VolumeGrid grid = readVolume(
-        mContext->readers(), volume, largestExtinction(mPrepared.scene.media[volume.medium]));
+    volumes::VolumeGrid grid = readVolume(mContext->readers(), volume,
+                                          largestExtinction(mPrepared.scene.media[volume.medium]));
     if (volume.representation == scene::VolumeRepresentation::Particles) {
         volumes::SphereOptions options;
         options.medium = volume.medium;
@@ -114,7 +114,17 @@ void Model::addVolumeOf(const scene::Volume& volume) {
 void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
     const scene::RenderSettings& own = mPrepared.scene.render;
     mOptions.settings = readSettings(kCreate, info.settings);
-    if (info.method) {
+    mOptions.hostLayers = info.hostLayers != 0;
+    if (mOptions.hostLayers) {
+        mOptions.method = info.method ? info.method : "weighted";
+        for (const char* key : {"precision", "depthPower", "weightDistance"})
+            if (mOptions.method != "weighted" || mOptions.settings.contains(key))
+                throw refuse(
+                    kCreate, "hostLayers",
+                    fmt::format("with method {} and a setting {}, allowed is weighted with "
+                                "its default weights",
+                                mOptions.method, key));
+    } else if (info.method) {
         mOptions.method = info.method;
     } else if (needsMeasuring(own.method)) {
         mOptions.method = kFallbackMethod;
@@ -122,6 +132,13 @@ void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
         mOptions.method = own.method;
         if (!info.settings) mOptions.settings = own.settings;
     }
+    mInside = info.inside;
+    if (mInside != BRUME_INSIDE_NOTHING && mOptions.method != "sorted" &&
+        mOptions.method != "unordered")
+        throw refuse(kCreate, "inside",
+                     fmt::format("method {} needs images of its own, allowed are sorted and "
+                                 "unordered",
+                                 mOptions.method));
     std::string allowed;
     bool isKnown = false;
     for (const oit::MethodInfo& method : oit::listMethods()) {

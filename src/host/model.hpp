@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,17 @@ class Model {
     const render::PreparedScene& prepared() const { return mPrepared; }
     /// Of the host's choice, of the scene, or one that hosts can use.
     const render::Options& options() const { return mOptions; }
+    BrumeInside inside() const { return mInside; }
 
     BrumeId addMedium(const BrumeMedium& medium);
     void setMedium(BrumeId id, const BrumeMedium& medium);
     BrumeId findMedium(const char* name) const;
+    /// Number `index`; 0 beyond the last.
+    BrumeId light(std::uint32_t index) const {
+        return index < mLightIds.size() ? mLightIds[index] : 0;
+    }
+    /// The place of a light among those of the shaders' array; none for ambient ones.
+    std::optional<std::size_t> shaderLight(BrumeId id) const;
     BrumeId addLight(const BrumeLight& light);
     void setLight(BrumeId id, const BrumeLight& light);
     BrumeId addSpheres(BrumeId medium, std::uint32_t count, const BrumeSphere* spheres);
@@ -72,10 +80,11 @@ class Model {
     const Context* mContext;
     render::PreparedScene mPrepared;
     render::Options mOptions;
+    BrumeInside mInside = BRUME_INSIDE_NOTHING;
     BrumeId mLastId = 0;
-    std::uint64_t mRevision = 0;   // of effects
+    std::uint64_t mRevision = 0;  // of effects
     std::uint64_t mStructure = 1, mValues = 1;
-    bool mIsFromFileOnly = true;   // nothing was added by calls
+    bool mIsFromFileOnly = true;                             // nothing was added by calls
     std::vector<BrumeId> mMediumIds, mLightIds, mVolumeIds;  // parallel to the scene's
     std::vector<BrumeId> mEffectIds;                         // likewise; those of sub-emitters, too
     std::vector<double> mEffectRadii;                        // bounds, m about their origins

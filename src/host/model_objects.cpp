@@ -20,9 +20,9 @@ namespace {
 dvec3 toVector(const char* call, const char* name, const double* v, double lo, double hi) {
     for (int i = 0; i < 3; ++i)
         if (!(v[i] >= lo && v[i] <= hi))
-            throw refuse(call, name,
-                         fmt::format("it is ({}, {}, {}), allowed are {} to {}", v[0], v[1], v[2],
-                                     lo, hi));
+            throw refuse(
+                call, name,
+                fmt::format("it is ({}, {}, {}), allowed are {} to {}", v[0], v[1], v[2], lo, hi));
     return {v[0], v[1], v[2]};
 }
 
@@ -162,6 +162,15 @@ void Model::setLight(BrumeId id, const BrumeLight& light) {
     fresh.shadowSettings = target.shadowSettings;
     target = std::move(fresh);
     ++mValues;
+}
+
+std::optional<std::size_t> Model::shaderLight(BrumeId id) const {
+    const std::size_t place = placeOf(mLightIds, id, "brumeGetShadow", "light");
+    const auto& lights = mPrepared.scene.lights;
+    if (lights[place].type == scene::LightType::Ambient) return std::nullopt;
+    return static_cast<std::size_t>(
+        std::count_if(lights.begin(), lights.begin() + place,
+                      [](const auto& l) { return l.type != scene::LightType::Ambient; }));
 }
 
 BrumeId Model::addSpheres(BrumeId medium, std::uint32_t count, const BrumeSphere* spheres) {
@@ -306,8 +315,9 @@ void Model::remove(BrumeId id) {
         isFound = true;
     }
     if (!isFound)
-        throw refuse("brumeRemove", "id",
-                     fmt::format("the scene has no light, spheres, volume or effect with id {}", id));
+        throw refuse(
+            "brumeRemove", "id",
+            fmt::format("the scene has no light, spheres, volume or effect with id {}", id));
     mIsFromFileOnly = false;
     ++mStructure;
 }

@@ -96,9 +96,9 @@ void Scene::make(const Made& wanted) {
     mRenderFrame.reset();
     // Simulations go over to the new one; should it fail, they begin anew with the next.
     const std::unique_ptr<render::Composer> previous = std::move(mComposer);
-    auto composer = std::make_unique<render::Composer>(device, mModel.prepared(), mModel.options(),
-                                                       mView,
-                                                       previous ? &previous->effects : nullptr);
+    auto composer =
+        std::make_unique<render::Composer>(device, mModel.prepared(), mModel.options(), mView,
+                                           previous ? &previous->effects : nullptr);
     mStillBounds = mModel.stillBounds();
     if (composer->hasShadows()) {
         Box3 bounds = mStillBounds;
@@ -108,6 +108,9 @@ void Scene::make(const Made& wanted) {
         composer->scene.setShadows(composer->shadows->addresses());
         composer->areShadowsReady = true;
     }
+    const BrumeInside inside = mModel.inside();
+    if (inside != BRUME_INSIDE_NOTHING) composer->callers.color = wanted.color.format;
+    if (inside == BRUME_INSIDE_COLOR_DEPTH) composer->callers.depth = wanted.depth.format;
     composer->addMethod();
     composer->method->prepare([](const oit::OitMethod::DeclareFunction&) {
         throw AssertionError("a method within a host's frame wants to measure");
@@ -144,21 +147,53 @@ void Scene::declareFrames() {
     const frame::ImageRef color = frame.importImage(mColor), depth = frame.importImage(mDepth);
     const frame::ImageRef reversed = mBackdrop->declareImport(frame, inputs, color, depth);
     mComposer->opaque.declareMeshes(frame, mComposer->scene, inputs, reversed, gpu::LoadOp::Load);
-    mComposer->declareResult(frame, inputs);
+    inputs.callers = mComposer->callers;
+    if (!inputs.callers) mComposer->declareResult(frame, inputs);
     mComposer->method->declare(frame, inputs);
+    if (inputs.callers) return;
     mBackdrop->declareComposite(frame, inputs, color);
+}
+
+// Runs what records into a command buffer. If that fails halfway, the buffer is discarded, and what
+// this and other scenes believe to be on the device is not.
+template <typename Work>
+void Scene::record(const char* call, const Work& work) {
+    mContext->requireFrame(call);
+    try {
+        mRecordedFrame = mContext->frame();
+        work();
+    } catch (const Error& error) {
+        // Bad arguments are found before anything is recorded.
+        if (error.kind() != ErrorKind::Input) mContext->forgetFrame();
+        throw;
+    } catch (...) {
+        mContext->forgetFrame();
+        throw;
+    }
+}
+
+void Scene::forgetFrame() {
+    if (mRecordedFrame != mContext->frame()) return;
+    mParticleFrame.reset();
+    mRenderFrame.reset();
+    mComposer.reset();
+    // The layouts that their images are believed to have were never reached.
+    mParticlePool = frame::ResourcePool(mContext->device());
+    mRenderPool = frame::ResourcePool(mContext->device());
+    mMade = {};
 }
 
 void Scene::prepare(const BrumeView& view) { build("brumePrepare", view); }
 
 void Scene::simulate(VkCommandBuffer commandBuffer, const BrumeStep& step) {
-    mContext->requireFrame("brumeCmdSimulate");
-    mModel.step(step.seconds);
-    mIsSimulationDue = true;
-    if (!isMade()) return;  // with the first view
-    gpu::Commands commands(mContext->device(), commandBuffer);
-    mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
-    mIsSimulationDue = false;
+    record("brumeCmdSimulate", [&] {
+        mModel.step(step.seconds);
+        mIsSimulationDue = true;
+        if (!isMade()) return;  // with the first view
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
+        mIsSimulationDue = false;
+    });
 }
 
 void Scene::recordContent(gpu::Commands& commands) {
@@ -193,35 +228,107 @@ void Scene::recordView(gpu::Commands& commands) {
 void Scene::recordParticles(gpu::Commands& commands) {
     recordContent(commands);
     recordView(commands);
-    if (mIsSimulationDue)
-        mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
+    if (mIsSimulationDue) mComposer->effects.recordSimulate(commands, mContext->maxTicksPerFrame());
     mIsSimulationDue = false;
     mParticleFrame->execute(commands);
     mParticlesOf = mContext->frame();
 }
 
 void Scene::shadow(VkCommandBuffer commandBuffer, const BrumeView& view) {
-    mContext->requireFrame("brumeCmdShadow");
-    build("brumeCmdShadow", view);
-    gpu::Commands commands(mContext->device(), commandBuffer);
-    recordParticles(commands);
+    constexpr const char* kCall = "brumeCmdShadow";
+    record(kCall, [&] {
+        build(kCall, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordParticles(commands);
+    });
+}
+
+void Scene::prepareDraw(VkCommandBuffer commandBuffer, const BrumeView& view) {
+    constexpr const char* kCall = "brumeCmdPrepareDraw";
+    if (mModel.inside() == BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "it was not created with inside");
+    checkHandles(kCall, "color", view.color);
+    checkHandles(kCall, "depth", view.depth);
+    record(kCall, [&] {
+        build(kCall, view);
+        if (mPush.offsetX != 0 || mPush.offsetY != 0)
+            throw refuse(kCall, "viewport", "it does not begin at 0, 0");
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordRender(commands, view);
+        finishRender(commands);
+    });
+}
+
+void Scene::draw(VkCommandBuffer commandBuffer) {
+    constexpr const char* kCall = "brumeCmdDraw";
+    if (!mRenderFrame || !mRenderFrame->isPaused() || mModel.inside() == BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "brumeCmdPrepareDraw() was not called before");
+    record(kCall, [&] {
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mRenderFrame->resume(commands);
+    });
 }
 
 void Scene::render(VkCommandBuffer commandBuffer, const BrumeView& view) {
     constexpr const char* kCall = "brumeCmdRender";
-    mContext->requireFrame(kCall);
+    if (mModel.inside() != BRUME_INSIDE_NOTHING)
+        throw refuse(kCall, "scene", "it was created with inside, for brumeCmdDraw()");
     checkHandles(kCall, "color", view.color);
     checkHandles(kCall, "depth", view.depth);
-    build(kCall, view);
-    gpu::Commands commands(mContext->device(), commandBuffer);
+    record(kCall, [&] {
+        build(kCall, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        if (!recordRender(commands, view)) mRenderFrame->resume(commands);
+        finishRender(commands);
+    });
+}
+
+void Scene::beginLayers(VkCommandBuffer commandBuffer, const BrumeView& view) {
+    constexpr const char* kCall = "brumeCmdBeginLayers";
+    if (!mModel.options().hostLayers)
+        throw refuse(kCall, "scene", "it was not created with hostLayers");
+    checkHandles(kCall, "color", view.color);
+    checkHandles(kCall, "depth", view.depth);
+    record(kCall, [&] {
+        build(kCall, view);
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        recordRender(commands, view);
+    });
+}
+
+void Scene::endLayers(VkCommandBuffer commandBuffer) {
+    constexpr const char* kCall = "brumeCmdEndLayers";
+    if (!mRenderFrame || !mRenderFrame->isPaused())
+        throw refuse(kCall, "scene", "brumeCmdBeginLayers() was not called before");
+    record(kCall, [&] {
+        gpu::Commands commands(mContext->device(), commandBuffer);
+        mRenderFrame->resume(commands);
+        finishRender(commands);
+    });
+}
+
+bool Scene::recordRender(gpu::Commands& commands, const BrumeView& view) {
     if (mParticlesOf != mContext->frame()) recordParticles(commands);
-    mColor.rebind({view.color.image, view.color.view, view.color.layout});
-    mDepth.rebind({view.depth.image, view.depth.view, view.depth.layout});
+    mColorLayout = view.color.layout;
+    mDepthLayout = view.depth.layout;
+    mColor.rebind({view.color.image, view.color.view, mColorLayout});
+    mDepth.rebind({view.depth.image, view.depth.view, mDepthLayout});
     mBackdrop->setPush(mPush);
-    mRenderFrame->execute(commands);
-    restoreLayout(commands, mColor, view.color.layout);
-    restoreLayout(commands, mDepth, view.depth.layout);
+    return mRenderFrame->execute(commands);
+}
+
+void Scene::finishRender(gpu::Commands& commands) {
+    restoreLayout(commands, mColor, mColorLayout);
+    restoreLayout(commands, mDepth, mDepthLayout);
     ++mFrames;
+}
+
+VkDeviceAddress Scene::shadowOf(BrumeId light) const {
+    const std::optional<std::size_t> index = mModel.shaderLight(light);
+    if (!isMade())
+        throw refuse("brumeGetShadow", "scene",
+                     "it has no memory yet, call brumeCmdShadow() first");
+    return index && mComposer->shadows ? mComposer->shadows->addresses()[*index] : 0;
 }
 
 BrumeCounters Scene::counters() const {

@@ -23,9 +23,20 @@ class Scene {
     void simulate(VkCommandBuffer commands, const BrumeStep& step);
     void shadow(VkCommandBuffer commands, const BrumeView& view);
     void render(VkCommandBuffer commands, const BrumeView& view);
+    void beginLayers(VkCommandBuffer commands, const BrumeView& view);
+    void endLayers(VkCommandBuffer commands);
+    void prepareDraw(VkCommandBuffer commands, const BrumeView& view);
+    void draw(VkCommandBuffer commands);
+    VkDeviceAddress shadowOf(BrumeId light) const;
     BrumeCounters counters() const;
 
+    /// What was recorded in this frame will not be submitted: all memory is made anew and effects
+    /// catch up.
+    void forgetFrame();
+
   private:
+    template <typename Work>
+    void record(const char* call, const Work& work);
     /// What memory and pipelines are made for.
     struct Made {
         std::uint64_t structure = 0;
@@ -43,6 +54,9 @@ class Scene {
     void recordContent(gpu::Commands& commands);
     void recordView(gpu::Commands& commands);
     void recordParticles(gpu::Commands& commands);
+    /// False if the host's layers come next.
+    bool recordRender(gpu::Commands& commands, const BrumeView& view);
+    void finishRender(gpu::Commands& commands);
     bool isMade() const { return mComposer && mMade.structure == mModel.structure(); }
 
     Context* mContext;
@@ -57,10 +71,13 @@ class Scene {
     std::unique_ptr<render::Composer> mComposer;
     std::unique_ptr<render::Backdrop> mBackdrop;
     std::optional<frame::FrameBuilder> mParticleFrame, mRenderFrame;
+    VkImageLayout mColorLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // in which the host's images go back
+    VkImageLayout mDepthLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     Box3 mStillBounds;
     std::uint64_t mValues = 0;         // of the model, that are on the device
     std::uint64_t mParticlesOf = 0;    // frame whose particles and shadows are recorded
     std::uint64_t mUploadFrame = 0;    // frame that the ring is open for
+    std::uint64_t mRecordedFrame = 0;  // the last that anything was recorded in
     std::uint64_t mFrames = 0;
     bool mHasContent = false;
     bool mIsSimulationDue = true;

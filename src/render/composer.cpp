@@ -51,7 +51,10 @@ void Composer::addShadows(const Box3& translucentBounds) {
 }
 
 void Composer::addMethod() {
-    method = oit::createMethod(options.method, device, scene.makeInputs(), options.settings);
+    oit::Inputs inputs = scene.makeInputs();
+    inputs.needs.hostLayers = options.hostLayers;
+    inputs.callers = callers;
+    method = oit::createMethod(options.method, device, inputs, options.settings);
 }
 
 frame::BufferRef Composer::declareParticles(frame::FrameBuilder& frame) {

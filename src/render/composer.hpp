@@ -14,8 +14,8 @@
 
 namespace brume::render {
 
-/// Set up in this order: constructor; recordContent(); simulate; addShadows(), if the scene has any;
-/// addMethod(). Everything that the constructor's arguments refer to must outlive it.
+/// Set up in this order: constructor; recordContent(); simulate; addShadows(), if the scene has
+/// any; addMethod(). Everything that the constructor's arguments refer to must outlive it.
 class Composer {
   public:
     /// Makes what does not depend on the particles: the scene's memory and the effects, whose
@@ -43,9 +43,10 @@ class Composer {
 
     gpu::Device& device;
     const PreparedScene& prepared;
-    Options options;             ///< without the settings below
-    std::uint64_t shuffleSeed;   ///< setting "shuffle"; 0: spheres stay as they come
+    Options options;            ///< without the settings below
+    std::uint64_t shuffleSeed;  ///< setting "shuffle"; 0: spheres stay as they come
     scene::Settings shadowSettings;
+    oit::CallersRendering callers;  ///< set before addMethod(): it draws there
     GpuScene scene;
     EffectParticles effects;
     OpaquePass opaque;

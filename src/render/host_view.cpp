@@ -48,8 +48,9 @@ View makeView(const HostView& host, shader::BackdropPush& push) {
     checkProjection(p);
     if (host.width < 1 || host.height == 0 || host.x < 0 || host.y < 0 ||
         host.y + std::min(host.height, 0) < 0)
-        throw refuse(fmt::format("the viewport {}x{} at {}, {} is empty or begins outside the image",
-                                 host.width, host.height, host.x, host.y));
+        throw refuse(
+            fmt::format("the viewport {}x{} at {}, {} is empty or begins outside the image",
+                        host.width, host.height, host.x, host.y));
     const bool isOrthographic = p[2][3] == 0;
     // Along which view z the camera looks, and by what clip w grows with depth.
     const double towards = isOrthographic ? (host.isLeftHanded ? 1 : -1) : (p[2][3] > 0 ? 1 : -1);
@@ -57,8 +58,7 @@ View makeView(const HostView& host, shader::BackdropPush& push) {
 
     View view;
     scene::CameraFrame& camera = view.camera;
-    camera.type =
-        isOrthographic ? scene::CameraType::Orthographic : scene::CameraType::Perspective;
+    camera.type = isOrthographic ? scene::CameraType::Orthographic : scene::CameraType::Perspective;
     const dmat3 rotation(host.viewFromWorld);
     camera.position = -(glm::transpose(rotation) * dvec3(host.viewFromWorld[3]));
     camera.right = glm::normalize(rowOf(host.viewFromWorld, 0)) * (p[0][0] > 0 ? 1.0 : -1.0);

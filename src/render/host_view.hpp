@@ -12,7 +12,7 @@ namespace brume::render {
 struct HostView {
     dmat4 viewFromWorld{1};  ///< rigid
     dmat4 clipFromView{1};   ///< perspective or orthographic, symmetric about the axis
-    int x = 0, y = 0;        ///< viewport, pixels; a negative height turns the image over, as VkViewport
+    int x = 0, y = 0;  ///< viewport, pixels; a negative height turns the image over, as VkViewport
     int width = 0, height = 0;
     double minDepth = 0, maxDepth = 1;  ///< of the viewport
     bool isLeftHanded = false;          ///< orthographic only: the view looks along +z

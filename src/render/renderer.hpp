@@ -44,6 +44,7 @@ struct Options {
     std::string method = "tile";
     scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
                                ///< "shuffle"
+    bool hostLayers = false;  ///< a host draws layers of its own: method weighted only
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
 };
 

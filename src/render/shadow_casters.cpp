@@ -134,12 +134,12 @@ void ShadowCasters::makeTriangles() {
             if (castsColour(material)) mCasters.isColoured = true;
             for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3, ++id) {
                 if (isOpaque != wantsOpaque) continue;
-                shader::ShadowTriangle& triangle =
-                    mTriangleData.emplace_back(makeTriangle(mesh, i, normalMatrix, mCasters.origin));
+                shader::ShadowTriangle& triangle = mTriangleData.emplace_back(
+                    makeTriangle(mesh, i, normalMatrix, mCasters.origin));
                 triangle.id = id;
-                if (isOpaque)
-                    for (const vec3& corner : {triangle.a, triangle.b, triangle.c})
-                        mCasters.opaqueBounds.extend(dvec3(corner) + mCasters.origin);
+                if (!isOpaque) continue;
+                for (const vec3& corner : {triangle.a, triangle.b, triangle.c})
+                    mCasters.opaqueBounds.extend(dvec3(corner) + mCasters.origin);
             }
         }
         if (wantsOpaque)

@@ -2,7 +2,6 @@
 #include <shadows/caster_bins.hpp>
 #include <shadows/map_pass.hpp>
 
-#include <shaders/common/frame_bindings.h>
 #include <spv/shadows/bins/order.comp.hpp>
 #include <spv/shadows/bins/pairs.comp.hpp>
 #include <spv/shadows/bins/starts.comp.hpp>
@@ -17,14 +16,8 @@ using frame::Access;
 gpu::ComputePipeline makePipeline(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> spirv,
                                   std::vector<std::uint32_t> specialization) {
-    return {device,
-            {.name = name,
-             .spirv = spirv,
-             .bindings = {{shader::kBindingFrame, gpu::BindingType::StorageBuffer},
-                          {shader::kBindingLights, gpu::BindingType::StorageBuffer},
-                          {shader::kBindingMedia, gpu::BindingType::StorageBuffer}},
-             .pushConstantBytes = sizeof(shader::ShadowBinPush),
-             .specialization = std::move(specialization)}};
+    return makeMapPipeline(device, name, spirv, std::move(specialization),
+                           sizeof(shader::ShadowBinPush));
 }
 
 gpu::Buffer makeUints(gpu::Device& device, const std::string& name, std::uint64_t count) {

@@ -107,10 +107,35 @@ TEST(HostMemory, SteadyFrame_AllocatesNothing) {
     EXPECT_GT(heap[0], 100u) << "the counter counts the library's allocations";
 }
 
+/// Counts what a driver takes and gives back through the host's callbacks.
+struct CallbackCount {
+    long living = 0, calls = 0;
+    VkAllocationCallbacks callbacks{};
+
+    CallbackCount() {
+        callbacks.pUserData = this;
+        callbacks.pfnAllocation = [](void* user, std::size_t bytes, std::size_t alignment,
+                                     VkSystemAllocationScope) {
+            auto& self = *static_cast<CallbackCount*>(user);
+            ++self.living, ++self.calls;
+            return std::aligned_alloc(std::max<std::size_t>(alignment, 8),
+                                      (bytes + alignment - 1) / alignment * alignment);
+        };
+        callbacks.pfnReallocation = [](void*, void*, std::size_t, std::size_t,
+                                       VkSystemAllocationScope) -> void* { return nullptr; };
+        callbacks.pfnFree = [](void* user, void* memory) {
+            if (memory) --static_cast<CallbackCount*>(user)->living;
+            std::free(memory);
+        };
+    }
+};
+
 TEST_F(HostTest, HundredContexts_LeaveNothingBehind) {
     auto info = host().contextInfo();
     MemoryCount memory;
     memory.hook(info, device());
+    CallbackCount driver;
+    info.allocator = &driver.callbacks;
     for (int i = 0; i < 100; ++i) {
         const Context context(info);
         auto sceneInfo = init<BrumeSceneCreateInfo>();
@@ -125,6 +150,8 @@ TEST_F(HostTest, HundredContexts_LeaveNothingBehind) {
     }
     EXPECT_GT(memory.allocated, 40);
     EXPECT_EQ(memory.allocated, memory.freed);
+    EXPECT_GT(driver.calls, 100);
+    EXPECT_EQ(driver.living, 0);
     // Whatever else is left, validation tells when the device goes.
 }
 

@@ -73,8 +73,7 @@ void TestHost::draw(vec3 fill, float depthValue) {
 
 void TestHost::frame(BrumeContext context, const std::function<void(VkCommandBuffer)>& record) {
     check(brumeBeginFrame(context, ++frames));
-    submitter.submitAndWait("frame",
-                            [&](gpu::Commands& commands) { record(commands.handle()); });
+    submitter.submitAndWait("frame", [&](gpu::Commands& commands) { record(commands.handle()); });
 }
 
 std::vector<vec4> TestHost::read() { return submitter.readImage<vec4>(color); }
@@ -99,10 +98,10 @@ BrumeView TestHost::view(dvec3 position) const {
                    static_cast<double>(size.width) / size.height, 0.1, 0, true);
     view.width = static_cast<std::int32_t>(size.width);
     view.height = static_cast<std::int32_t>(size.height);
-    view.color = {color.handle(), color.view(), color.format(), color.layout(), size.width,
-                  size.height};
-    view.depth = {depth.handle(), depth.view(), depth.format(), depth.layout(), size.width,
-                  size.height};
+    view.color = {color.handle(), color.view(), color.format(),
+                  color.layout(), size.width,   size.height};
+    view.depth = {depth.handle(), depth.view(), depth.format(),
+                  depth.layout(), size.width,   size.height};
     return view;
 }
 

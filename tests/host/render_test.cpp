@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a host sees: the same as the renderer of whole images, behind and before what it has drawn.
+#include <brume/brume_vdb.h>
 #include <host/host_fixture.hpp>
 
 #include <bench/prepare.hpp>
@@ -52,26 +53,26 @@ TEST_P(HostMethods, SceneOfAFile_EqualsTheRenderer) {
     std::filesystem::create_directories(folder);
     const std::string file = folder + "/scene.json";
     for (const std::string& text : {sceneWithEffect(folder), sceneWithShadow()}) {
-    std::ofstream(file) << text;
-    const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
-    render::Options options;
-    options.method = GetParam();
-    const brume::Image expected =
-        render::Renderer(device(), prepared, options, log()).renderFrame().image;
+        std::ofstream(file) << text;
+        const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
+        render::Options options;
+        options.method = GetParam();
+        const brume::Image expected =
+            render::Renderer(device(), prepared, options, log()).renderFrame().image;
 
-    const Context context(host().contextInfo());
-    Scene scene = Scene::load(context, file.c_str(), GetParam());
-    for (int frame = 0; frame < 3; ++frame) {
-        host().draw({0.2f, 0.3f, 0.4f}, 0);
-        host().frame(context.get(), [&](VkCommandBuffer commands) {
-            scene.cmdSimulate(commands, 0);
-            scene.cmdRender(commands, host().view());
-        });
-        EXPECT_LE(largestDifference(host().read(), expected), 1e-6) << "frame " << frame;
-    }
-    EXPECT_EQ(host().read()[0].w, 0.25f) << "the host's alpha";
-    EXPECT_EQ(scene.counters().shadowPairsDropped, 0u);
-    EXPECT_GE(scene.counters().sphereSlots, 2u);
+        const Context context(host().contextInfo());
+        Scene scene = Scene::load(context, file.c_str(), GetParam());
+        for (int frame = 0; frame < 3; ++frame) {
+            host().draw({0.2f, 0.3f, 0.4f}, 0);
+            host().frame(context.get(), [&](VkCommandBuffer commands) {
+                scene.cmdSimulate(commands, 0);
+                scene.cmdRender(commands, host().view());
+            });
+            EXPECT_LE(largestDifference(host().read(), expected), 1e-6) << "frame " << frame;
+        }
+        EXPECT_EQ(host().read()[0].w, 0.25f) << "the host's alpha";
+        EXPECT_EQ(scene.counters().shadowPairsDropped, 0u);
+        EXPECT_GE(scene.counters().sphereSlots, 2u);
     }
 }
 
@@ -133,8 +134,7 @@ TEST_P(HostDepths, WallThroughASphere_HidesWhatIsBehind) {
         const std::vector<vec4> pixels = host().read();
         for (int y = 0; y < int(host().size.height); ++y)
             for (int x = 0; x < int(host().size.width); ++x) {
-                const bool isInside =
-                    x >= c.x && x < c.x + c.width && y >= top && y < top + height;
+                const bool isInside = x >= c.x && x < c.x + c.width && y >= top && y < top + height;
                 if (isInside) continue;
                 EXPECT_EQ(pixels[y * host().size.width + x].x, 1) << x << ", " << y;
             }
@@ -152,15 +152,15 @@ TEST_P(HostDepths, WallThroughASphere_HidesWhatIsBehind) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, HostDepths,
-    ::testing::Values(DepthCase{"reversed_infinite", 0.1, 0, true, false, 0, 0, 48, 32, 0, 1},
-                      DepthCase{"infinite", 0.1, 0, false, false, 0, 0, 48, 32, 0, 1},
-                      DepthCase{"conventional", 0.5, 50, false, false, 0, 0, 48, 32, 0, 1},
-                      DepthCase{"reversed", 0.5, 50, true, false, 8, 4, 30, 20, 0, 1},
-                      DepthCase{"viewport_turned_over", 0.5, 50, false, false, 6, 28, 32, -24, 0, 1},
-                      DepthCase{"part_of_the_range", 0.5, 50, true, false, 0, 0, 48, 32, 0.25f,
-                                0.75f},
-                      DepthCase{"orthographic", 0.5, 20, false, true, 0, 0, 48, 32, 0, 1},
-                      DepthCase{"orthographic_reversed", 0.5, 20, true, true, 4, 4, 40, 24, 0, 1}),
+    ::testing::Values(
+        DepthCase{"reversed_infinite", 0.1, 0, true, false, 0, 0, 48, 32, 0, 1},
+        DepthCase{"infinite", 0.1, 0, false, false, 0, 0, 48, 32, 0, 1},
+        DepthCase{"conventional", 0.5, 50, false, false, 0, 0, 48, 32, 0, 1},
+        DepthCase{"reversed", 0.5, 50, true, false, 8, 4, 30, 20, 0, 1},
+        DepthCase{"viewport_turned_over", 0.5, 50, false, false, 6, 28, 32, -24, 0, 1},
+        DepthCase{"part_of_the_range", 0.5, 50, true, false, 0, 0, 48, 32, 0.25f, 0.75f},
+        DepthCase{"orthographic", 0.5, 20, false, true, 0, 0, 48, 32, 0, 1},
+        DepthCase{"orthographic_reversed", 0.5, 20, true, true, 4, 4, 40, 24, 0, 1}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 // A mirror image in y is what a negative height asks for.
@@ -326,6 +326,41 @@ TEST_F(HostTest, ReloadedEffect_ReachesLiveInstances) {
         fresh.cmdRender(commands, host().view());
     });
     EXPECT_EQ(host().read(), after);
+}
+
+TEST_F(HostTest, VolumeOfAFile_IsReadByTheHost) {
+    const std::string folder = ::testing::TempDir() + "brume_host_volume";
+    std::filesystem::create_directories(folder);
+    const std::string file = folder + "/scene.json";
+    std::ofstream(file) << R"({ "version": 1,
+        "camera": { "position": [0, 0, 5], "target": [0, 0, 0], "verticalFov": 60, "near": 0.1 },
+        "image": { "width": 48, "height": 32 }, "background": { "radiance": [0.2, 0.3, 0.4] },
+        "lights": [ { "type": "ambient", "radiance": [0.4, 0.5, 0.6] } ],
+        "media": { "smoke": { "extinction": [2, 2, 2], "albedo": [0.9, 0.8, 0.7] } },
+        "volumes": [ { "file": ")"
+                        << BRUME_SOURCE_DIR
+                        << R"(/demos/plume/fire.vdb", "density": "density", "medium": "smoke",
+                        "transform": { "translate": [0, -1, 0] } } ] })";
+    auto info = host().contextInfo();
+    EXPECT_THROW(Scene::load(Context(info), file.c_str()), ApiError) << "nobody reads volumes";
+    info.readVolume = brumeReadVdb;
+    const Context context(info);
+    Scene scene = Scene::load(context, file.c_str(), "sorted");
+    host().draw({0.2f, 0.3f, 0.4f}, 0);
+    host().frame(context.get(),
+                 [&](VkCommandBuffer commands) { scene.cmdRender(commands, host().view()); });
+    EXPECT_GT(scene.counters().boxes, 10u);
+    const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
+    render::Options options;
+    options.method = "sorted";
+    const brume::Image expected =
+        render::Renderer(device(), prepared, options, log()).renderFrame().image;
+    EXPECT_LE(largestDifference(host().read(), expected), 1e-6);
+
+    auto density = init<BrumeDensity>();
+    EXPECT_EQ(brumeReadVdb(nullptr, file.c_str(), "density", -1, &density),
+              BRUME_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(brumeVdbLastError()).find("scene.json"), std::string::npos);
 }
 
 TEST_F(HostTest, VolumeByACall_IsSeen) {
