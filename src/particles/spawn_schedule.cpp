@@ -126,6 +126,7 @@ void SpawnSchedule::at(std::uint64_t tick, TickBirths& births) const {
         for (std::size_t b = first; b < births.batches.size(); ++b) {
             shader::BirthBatch& batch = births.batches[b];
             batch.emitter = i;
+            batch.strand = i;
             batch.firstBirthIndex = static_cast<std::uint32_t>(index);
             index += batch.count;
             const std::uint32_t kept = std::min(batch.count, mCapacity - births.count);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <particles/surfaces.hpp>
 #include <render/effect_particles.hpp>
+#include <scene/camera.hpp>
 
 #include <fmt/format.h>
 
@@ -82,8 +84,8 @@ std::unique_ptr<particles::GpuSimulation> EffectParticles::takeOver(
 std::uint64_t EffectParticles::ticksBehind() const {
     std::uint64_t behind = 0;
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
-        const std::uint64_t target = particles::ticksAt(mPrepared->scene.effects[mRoots[i][0]].time,
-                                                        mSimulations[i]->effect().tickRate);
+        const std::uint64_t target = particles::ticksAt(
+            mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds(), mSimulations[i]->effect().tickRate);
         behind = std::max(behind, target - std::min(target, mSimulations[i]->tick()));
     }
     return behind;
@@ -99,7 +101,7 @@ void EffectParticles::groupInstances() {
         } else {
             // Effects made in code have no file to know them by: each stands alone.
             const bool isKnown = !effects[i].file.empty();
-            const std::pair key(effects[i].file, effects[i].time);
+            const std::pair key(effects[i].file, effects[i].simulatedSeconds());
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -115,7 +117,7 @@ void EffectParticles::groupInstances() {
 void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks) {
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
         particles::GpuSimulation& simulation = *mSimulations[i];
-        const double time = mPrepared->scene.effects[mRoots[i][0]].time;
+        const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
         const double tickRate = simulation.effect().tickRate;
         const std::uint64_t target = particles::ticksAt(time, tickRate);
         if (target > simulation.tick() && target - simulation.tick() > maxTicks)
@@ -127,13 +129,17 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
 
 void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                               frame::BufferRef spheres) const {
-    if (mSimulations.empty()) return;
+    const auto& effects = mPrepared->scene.effects;
+    if (std::all_of(effects.begin(), effects.end(),
+                    [](const auto& effect) { return effect.effect.surface.has_value(); }))
+        return;
     frame.addPass("particles.appearance")
         .readsWrites(spheres, Access::ComputeWrite)
         .record([this, &scene, spheres](gpu::Commands& commands,
                                         const frame::PassResources& resources) {
             for (std::size_t i = 0; i < mPlaces.size(); ++i) {
                 const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+                if (effect.effect.surface) continue;
                 mSimulations[mPlaces[i].simulation]->recordAppearance(
                     commands, {.worldFromEffect = effect.worldFromEffect,
                                .cameraPosition = scene.camera().position,
@@ -179,10 +185,36 @@ void EffectParticles::readCheckpoints(gpu::Submitter& submitter,
     }
 }
 
+std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter) const {
+    const scene::Scene& scene = mPrepared->scene;
+    std::vector<scene::Mesh> surfaces;
+    for (std::size_t i = 0; i < mPlaces.size(); ++i) {
+        const scene::EffectInstance& effect = scene.effects[i];
+        if (!effect.effect.surface) continue;
+        const Place& place = mPlaces[i];
+        const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
+        const auto state = simulation.readState(submitter, place.instance);
+        const auto root = static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+        scene::Mesh mesh = particles::makeSurfaceMesh(
+            {.effect = effect.effect,
+             .compiled = simulation.effect(place.population),
+             .state = state,
+             .population = place.population,
+             .random = particles::instanceParameters(effect.seed, root, place.population).random,
+             .sinceTick = simulation.sinceTick()},
+            effect.worldFromEffect,
+            scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height),
+            effect.material);
+        if (!mesh.indices.empty()) surfaces.push_back(std::move(mesh));
+    }
+    return surfaces;
+}
+
 std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& submitter) const {
     std::vector<scene::MediumSphere> spheres;
     for (std::size_t i = 0; i < mPlaces.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+        if (effect.effect.surface) continue;
         const Place& place = mPlaces[i];
         const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
         const auto snapshot = simulation.readState(submitter, place.instance);

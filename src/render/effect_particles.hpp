@@ -39,6 +39,10 @@ class EffectParticles {
     void readCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder, int frame);
 
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
+
+    /// Ribbons and billboards as they are now, facing the scene's camera, in the order of its
+    /// entries. Submits and waits.
+    std::vector<scene::Mesh> readSurfaces(gpu::Submitter& submitter) const;
     std::uint64_t bytes() const;
 
   private:

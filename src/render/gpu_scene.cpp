@@ -278,7 +278,7 @@ void GpuScene::makeSpheres() {
     mSphereCount = static_cast<std::uint32_t>(spheres.size());
     for (const scene::EffectInstance& effect : mPrepared->scene.effects) {
         mFirstEffectSphere.push_back(mSphereCount);
-        mSphereCount += effect.effect.capacity;
+        if (!effect.effect.surface) mSphereCount += effect.effect.capacity;
     }
     mSpheres = makeArray<shader::SphereData>("render.spheres", mSphereCount);
 }

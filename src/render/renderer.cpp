@@ -13,17 +13,49 @@
 #include <optional>
 
 namespace brume::render {
+namespace {
+
+/// Ribbons and billboards are meshes that face the camera: where effects show such, they are
+/// simulated before the scene is composed, which then has the meshes too.
+struct SurfacedScene {
+    std::optional<PreparedScene> scene;
+    std::unique_ptr<EffectParticles> effects;  // at their times
+    std::vector<scene::Mesh> surfaces;
+
+    SurfacedScene(gpu::Device& device, gpu::Submitter& submitter, const PreparedScene& prepared,
+                  EffectParticles* previous) {
+        const auto& all = prepared.scene.effects;
+        if (std::none_of(all.begin(), all.end(),
+                         [](const auto& effect) { return effect.effect.surface.has_value(); }))
+            return;
+        scene = prepared;
+        // The composer takes the simulations over by their keys.
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (all[i].key == 0) scene->scene.effects[i].key = ~static_cast<std::uint64_t>(i);
+        effects = std::make_unique<EffectParticles>(device, *scene, previous);
+        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+            effects->recordSimulate(commands);
+        });
+        surfaces = effects->readSurfaces(submitter);
+        scene->scene.meshes.insert(scene->scene.meshes.end(), surfaces.begin(), surfaces.end());
+    }
+};
+
+}  // namespace
 
 struct Renderer::Impl {
     Impl(gpu::Device& device, const PreparedScene& prepared_, const Options& options_,
          const Log& log_, EffectParticles* previous)
-        : prepared(prepared_),
-          options(options_),
+        : options(options_),
           log(log_),
           submitter(device),
           pool(device),
           timers(device),
-          composer(device, prepared, options, makeView(prepared), previous) {
+          surfaced(device, submitter, prepared_, previous),
+          prepared(surfaced.scene ? *surfaced.scene : prepared_),
+          composer(device, prepared, options, makeView(prepared),
+                   surfaced.scene ? surfaced.effects.get() : previous) {
+        surfaced.effects.reset();
         submitter.submitAndWait("upload scene",
                                 [&](gpu::Commands& commands) { composer.recordContent(commands); });
         simulate();
@@ -60,7 +92,7 @@ struct Renderer::Impl {
     }
 
     bool advance() {
-        if (composer.shuffleSeed != 0) return false;
+        if (composer.shuffleSeed != 0 || surfaced.scene) return false;
         simulate();
         if (composer.hasShadows()) {
             const Box3 bounds = translucentBounds();
@@ -164,12 +196,13 @@ struct Renderer::Impl {
         return kinds;
     }
 
-    const PreparedScene& prepared;
     Options options;
     Log log;
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
+    SurfacedScene surfaced;
+    const PreparedScene& prepared;
     Composer composer;
     gpu::Buffer image, triangles, trianglesRead;
 };
@@ -213,8 +246,8 @@ Result Renderer::renderFrame() {
     return result;
 }
 
-std::vector<scene::MediumSphere> Renderer::readParticles() const {
-    return mImpl->composer.effects.readSpheres(mImpl->submitter);
+EffectContents Renderer::readEffects() const {
+    return {mImpl->composer.effects.readSpheres(mImpl->submitter), mImpl->surfaced.surfaces};
 }
 
 bool Renderer::advance() { return mImpl->advance(); }

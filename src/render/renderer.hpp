@@ -28,10 +28,16 @@ class EffectParticles;
 
 /// A scene with its files loaded: what both the GPU renderer and the reference see.
 struct PreparedScene {
-    scene::Scene scene;
+    scene::Scene scene;  ///< the materials of its effects' surfaces are those that they show
     std::vector<volumes::VolumeGrid> volumes;  ///< parallel to scene.volumes
     std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to
                                                ///< particles; effects are simulated by the renderer
+};
+
+/// What effects show at their time.
+struct EffectContents {
+    std::vector<scene::MediumSphere> spheres;
+    std::vector<scene::Mesh> surfaces;  ///< ribbons and billboards, facing the camera
 };
 
 struct Options {
@@ -86,7 +92,7 @@ class Renderer {
     Result renderFrame();
 
     /// Particles as simulated on the device, read back: for the reference.
-    std::vector<scene::MediumSphere> readParticles() const;
+    EffectContents readEffects() const;
 
     /// Goes on to the new times of the scene's effects, of which nothing else has changed. False
     /// where that takes a new renderer, which takeEffects() helps.

@@ -47,11 +47,11 @@ int firstFrame(const RenderArguments& arguments) {
     return framesOf(parseFrames(arguments.frames), parseShard(arguments.shard)).first;
 }
 
-/// One image with its measurement. `particles`: what it shows of the effects.
+/// One image with its measurement. `effects`: what it shows of them.
 struct Rendered {
     bench::Row row;
     render::Result frame;
-    std::vector<scene::MediumSphere> particles;
+    render::EffectContents effects;
     std::string explanation;
 };
 
@@ -213,7 +213,7 @@ Rendered RenderCommand::renderOnDevice() {
         bench::describeRun(mArguments.scene.string(), mScene.scene, options, mDevice->info());
     samples.summariseInto(rendered.row);
     rendered.frame = samples.last();
-    rendered.particles = renderer.readParticles();
+    rendered.effects = renderer.readEffects();
     if (mArguments.explain) rendered.explanation = renderer.explain();
     return rendered;
 }
@@ -230,11 +230,11 @@ Rendered RenderCommand::renderByReference() {
     cpu.driver = "double precision";
     Rendered rendered;
     rendered.row = bench::describeRun(mArguments.scene.string(), mScene.scene, options, cpu);
-    rendered.particles = bench::simulateOnCpu(mScene.scene);
+    rendered.effects = bench::simulateOnCpu(mScene.scene);
     Progress progress("rendering by reference");
     const Stopwatch watch;
     reference::Result exact =
-        bench::renderReference(mScene, rendered.particles, progress.callback());
+        bench::renderReference(mScene, rendered.effects, progress.callback());
     rendered.frame.timeMs = watch.elapsedMs();
     rendered.frame.passes = {{"reference", rendered.frame.timeMs}};
     rendered.frame.image = std::move(exact.image);
@@ -253,7 +253,7 @@ void RenderCommand::compare(Rendered& rendered) {
     if (mArguments.against == "reference") {
         Progress progress("rendering the reference");
         const reference::Result exact =
-            bench::renderReference(mScene, rendered.particles, progress.callback());
+            bench::renderReference(mScene, rendered.effects, progress.callback());
         comparison = bench::compareWithReference(rendered.frame, exact);
     } else {
         comparison = bench::compareImages(rendered.frame.image, readImage(mArguments.against));
