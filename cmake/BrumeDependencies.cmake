@@ -14,6 +14,7 @@ find_package(TinyGLTF REQUIRED)
 find_package(Vulkan REQUIRED)  # headers only: volk loads the functions
 if(BRUME_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(rapidcheck REQUIRED)
   include(GoogleTest)
 endif()
 

@@ -57,7 +57,8 @@ BRUME_SHARED BirthBatch noChildren() {
 
 /// Takes a particle through a tick, to its death if it does not survive; births have only the part
 /// that is left of it.
-BRUME_SHARED ParticleTick followTick(BRUME_EFFECT_PARAMETER StepParameters parameters,
+BRUME_SHARED ParticleTick followTick(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                         StepParameters parameters,
                                      TickFields fields, uint noiseSeed, uint tick, bool isBirth,
                                      bool survives, BRUME_INOUT(Particle) particle) {
     ParticleTick event;
@@ -75,11 +76,11 @@ BRUME_SHARED ParticleTick followTick(BRUME_EFFECT_PARAMETER StepParameters param
     if (isBirth || !survives) {
         BRUME_PRECISE float part =
             survives ? partOfFirstTick(particle.life) : event.to - event.from;
-        event.outcome = stepParticlePart(BRUME_EFFECT_ARGUMENT parameters, fields, noiseSeed, part,
+        event.outcome = stepParticlePart(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, part,
                                          particle);
     } else {
         event.outcome =
-            stepParticle(BRUME_EFFECT_ARGUMENT parameters, fields, noiseSeed, particle);
+            stepParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, particle);
     }
     event.end = particle.position;
     event.endVelocity = particle.velocity;

@@ -10,6 +10,7 @@ BRUME_STRUCTS_BEGIN
 BRUME_CONST uint kResponseBounce = 0u;
 BRUME_CONST uint kResponseStick = 1u;
 BRUME_CONST uint kResponseKill = 2u;
+BRUME_CONST uint kResponseWait = 3u;  // no hit: the way ends here until the next tick
 
 /// How a surface treats what hits it.
 struct ContactSurface {

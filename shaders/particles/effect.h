@@ -20,7 +20,9 @@ BRUME_CONST uint kMaxSpeedKeys = 16u;       // by-speed keys at different speeds
 // Random channels of a birth; each gives four words.
 BRUME_CONST uint kChannelMotion = 0u;    // lifetime, speed, two for the direction
 BRUME_CONST uint kChannelShape = 1u;     // the place in the shape
-BRUME_CONST uint kChannelChildren = 2u;  // and up: how many children, per sub-emitter
+BRUME_CONST uint kChannelChildren = 2u;  // and up: how many children, per sub-emitter and tick:
+                                         // 16 tick + 2 to 16 tick + 5
+BRUME_CONST uint kChannelLook = 6u;      // rotation and spin of a billboard, thinning
 
 /// When a particle was born and for how long; all that decides its death by age.
 struct ParticleLife {
@@ -52,6 +54,8 @@ struct StepParameters {
     float ticksPerSecond;
 };
 
+BRUME_CONST uint kNoField = 0xffffffffu;
+
 /// One emitter; ranges as low and (high - low). See spawn.h for the shapes.
 struct EmitterParameters {
     vec3 position;
@@ -78,6 +82,7 @@ struct EmitterParameters {
     float faceX, faceXY;    // box surface: shares of the area of the faces across x, across x and y
     uint firstTriangle;     // mesh
     uint triangleCount;
+    uint birthField;  // whose velocity is added at birth; kNoField: none
 };
 
 /// A triangle that emits; `rank` / 2^32 is the share of the area in the triangles before it.
@@ -182,7 +187,7 @@ struct ParticleCounters {
 static_assert(sizeof(Particle) == 40);
 static_assert(sizeof(StepParameters) == 56);
 static_assert(offsetof(EmitterParameters, directionBitangent) == 112 &&
-              sizeof(EmitterParameters) == 164);
+              sizeof(EmitterParameters) == 168);
 static_assert(sizeof(BirthBatch) == 64);
 static_assert(sizeof(EmitterTriangle) == 52);
 static_assert(sizeof(AppearanceSegment) == 28);

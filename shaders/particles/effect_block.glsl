@@ -9,5 +9,6 @@ layout(set = 0, binding = kBindingEffect, scalar) readonly buffer EffectBlock {
     layout(constant_id = constant) const uint member##Count = 0u;
 BRUME_MODULE_TYPES(BRUME_DECLARE_COUNT)
 layout(constant_id = 32) const uint kSubEmitterCount = 0u;
+layout(constant_id = 33) const uint kHasStrands = 0u;
 
 #define BRUME_EFFECT effect

@@ -43,6 +43,9 @@ BRUME_CONST uint kBindingRecords = 18u;       // BirthBatch[]: sub-emitter, inst
 BRUME_CONST uint kBindingRecordCounts = 19u;  // RecordCount[]: sub-emitter, instance, chunk
 BRUME_CONST uint kBindingChildTotals = 20u;   // TickTotals[] of the child
 BRUME_CONST uint kBindingChildBatches = 21u;  // BirthBatch[] of the child
+// 22: kBindingFieldValues of field_grid.h
+BRUME_CONST uint kBindingStrands = 23u;       // uint[], before the tick; of effects with ribbons
+BRUME_CONST uint kBindingNewStrands = 24u;    // after it
 
 /// One tick, as the CPU knows it beforehand.
 ///

@@ -15,6 +15,7 @@ BRUME_CONST uint kShapeSphere = 4u;
 BRUME_CONST uint kShapeBox = 5u;
 BRUME_CONST uint kShapeCone = 6u;
 BRUME_CONST uint kShapeMesh = 7u;
+BRUME_CONST uint kShapeVolume = 8u;  // "triangles" are voxels: place, axes as edges and normal
 
 BRUME_CONST uint kVelocityDirection = 0u;  // around EmitterParameters::direction
 BRUME_CONST uint kVelocityRadial = 1u;     // around the way from the emitter's place
@@ -134,6 +135,26 @@ BRUME_SHARED ShapeSample sampleTriangle(EmitterTriangle triangle, uvec4 w) {
     return result;
 }
 
+/// 16 random bits as a number in [0, 1).
+BRUME_SHARED float unitFloat16(uint bits) {
+    BRUME_PRECISE float u = float(bits & 0xffffu) * 1.52587890625e-5f;
+    return u;
+}
+
+/// In proportion to the trilinear density around a voxel: the difference of two uniform numbers has
+/// the hat function of the interpolation as its density.
+BRUME_SHARED ShapeSample sampleVoxel(EmitterTriangle voxel, vec3 axis, uvec4 w) {
+    BRUME_PRECISE float u = unitFloat16(w.y) - unitFloat16(w.y >> 16u);
+    BRUME_PRECISE float v = unitFloat16(w.z) - unitFloat16(w.z >> 16u);
+    BRUME_PRECISE float s = unitFloat16(w.w) - unitFloat16(w.w >> 16u);
+    ShapeSample result;
+    BRUME_PRECISE vec3 offset =
+        voxel.corner + voxel.edge1 * u + voxel.edge2 * v + voxel.normal * s;
+    result.offset = offset;
+    result.normal = axis;
+    return result;
+}
+
 /// The triangle whose share of the area contains the random word: the last with rank <= word.
 /// BRUME_TRIANGLES is an array in C++ and a buffer in GLSL.
 BRUME_SHARED uint findTriangle(BRUME_TRIANGLES_PARAMETER EmitterParameters emitter, uint word) {
@@ -168,6 +189,9 @@ BRUME_SHARED ShapeSample sampleShape(BRUME_TRIANGLES_PARAMETER EmitterParameters
     } else if (emitter.shape == kShapeMesh) {
         result = sampleTriangle(
             BRUME_TRIANGLES[findTriangle(BRUME_TRIANGLES_ARGUMENT emitter, w.x)], w);
+    } else if (emitter.shape == kShapeVolume) {
+        result = sampleVoxel(BRUME_TRIANGLES[findTriangle(BRUME_TRIANGLES_ARGUMENT emitter, w.x)],
+                             emitter.axis, w);
     }
     return result;
 }
@@ -194,7 +218,8 @@ BRUME_SHARED float remainingOf(BirthBatch batch, uint indexInBatch) {
 
 /// A particle at the moment of its birth, with the emitter displaced by `offset` and moving at
 /// `velocity`, of which the particle takes over what its emitter says.
-BRUME_SHARED Particle spawnParticle(BRUME_TRIANGLES_PARAMETER RandomStream random,
+BRUME_SHARED Particle spawnParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                        BRUME_TRIANGLES_PARAMETER RandomStream random,
                                     EmitterParameters emitter, uint birthIndex, float remaining,
                                     uint tick, vec3 offset, vec3 velocity) {
     Particle particle;
@@ -220,19 +245,25 @@ BRUME_SHARED Particle spawnParticle(BRUME_TRIANGLES_PARAMETER RandomStream rando
                                           unitFloat(motion.z), unitFloat(motion.w)) *
                                    speed +
                                velocity;
+    for (uint i = 0u; i < BRUME_COUNT(birthField); ++i)
+        if (i == emitter.birthField)
+            start = start + velocityFieldAt(BRUME_FIELDS_ARGUMENT BRUME_EFFECT.birthField[i],
+                                            position);
     particle.velocity = start;
     return particle;
 }
 
 /// A birth of a batch: the emitter moves straight in a tick.
-BRUME_SHARED Particle spawnFromBatch(BRUME_TRIANGLES_PARAMETER RandomStream random,
+BRUME_SHARED Particle spawnFromBatch(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                         BRUME_TRIANGLES_PARAMETER RandomStream random,
                                      EmitterParameters emitter, BirthBatch batch,
                                      uint indexInBatch, uint tick) {
     BRUME_PRECISE float remaining = remainingOf(batch, indexInBatch);
     BRUME_PRECISE vec3 offset = batch.offset - batch.motion * remaining;
     BRUME_PRECISE vec3 velocity =
         batch.motion * emitter.inheritPerTick + batch.velocity * emitter.inheritSpeed;
-    return spawnParticle(BRUME_TRIANGLES_ARGUMENT random, emitter,
+    return spawnParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT BRUME_TRIANGLES_ARGUMENT
+                             random, emitter,
                          batch.firstBirthIndex + indexInBatch, remaining, tick, offset, velocity);
 }
 

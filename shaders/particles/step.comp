@@ -24,6 +24,8 @@ layout(set = 0, binding = kBindingChunks, scalar) readonly buffer ChunksBlock { 
 layout(set = 0, binding = kBindingGroups, scalar) readonly buffer GroupsBlock { uint groups[]; };
 layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
+layout(set = 0, binding = kBindingStrands, scalar) readonly buffer StrandsBlock { uint strands[]; };
+layout(set = 0, binding = kBindingNewStrands, scalar) writeonly buffer NewStrandsBlock { uint newStrands[]; };
 layout(set = 0, binding = kBindingRecords, scalar) writeonly buffer RecordsBlock { BirthBatch records[]; };
 layout(set = 0, binding = kBindingRecordCounts, scalar) writeonly buffer RecordCountsBlock { RecordCount recordCounts[]; };
 
@@ -37,12 +39,13 @@ struct Cursor {
     RecordCount counts[kMaxSubEmitters];
 };
 
-void write(inout Cursor cursor, Particle particle) {
+void write(inout Cursor cursor, Particle particle, uint strand) {
     uint slot = cursor.base + cursor.slot;
     newPositions[slot] = particle.position;
     newVelocities[slot] = particle.velocity;
     newLives[slot] = particle.life;
     newBirthIndices[slot] = particle.birthIndex;
+    if (kHasStrands != 0u) newStrands[slot] = strand;
     ++cursor.slot;
     cursor.killed += particle.life.lifetimeTicks == kNotFinite ? 1u : 0u;
 }
@@ -60,11 +63,11 @@ void listChildren(inout Cursor cursor, RandomStream random, ParticleTick event) 
 
 /// A particle that is alive or, where that has sub-emitters, dies in this tick.
 void advance(inout Cursor cursor, StepParameters parameters, InstanceParameters instance,
-             Tick tick, bool isBirth, bool survives, Particle particle) {
+             Tick tick, bool isBirth, bool survives, Particle particle, uint strand) {
     ParticleTick event = followTick(parameters, tick.fields, instance.noiseSeed, tick.index, isBirth,
                                     survives || kSubEmitterCount == 0u, particle);
     if (kSubEmitterCount > 0u) listChildren(cursor, instance.random, event);
-    if (survives) write(cursor, particle);
+    if (survives) write(cursor, particle, strand);
 }
 
 void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cursor cursor) {
@@ -78,7 +81,8 @@ void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cu
             particle.position = positions[slot];
             particle.velocity = velocities[slot];
             particle.birthIndex = birthIndices[slot];
-            advance(cursor, parameters, instance, tick, false, survives, particle);
+            uint strand = kHasStrands != 0u ? strands[slot] : 0u;
+            advance(cursor, parameters, instance, tick, false, survives, particle, strand);
         }
     }
 }
@@ -94,7 +98,7 @@ void appendBirths(Tick tick, TickTotals before, uint instanceIndex, InstancePara
                                            i - batch.first, tick.index);
         bool survives = isAlive(particle.life, tick.index);
         if ((survives || kSubEmitterCount > 0u) && cursor.slot < tick.capacity)
-            advance(cursor, parameters, instance, tick, true, survives, particle);
+            advance(cursor, parameters, instance, tick, true, survives, particle, batch.strand);
     }
 }
 

@@ -56,7 +56,8 @@ struct Surroundings {
 };
 
 /// One loop per type of module that depends on the place.
-BRUME_SHARED Surroundings surroundingsAt(BRUME_EFFECT_PARAMETER StepParameters parameters,
+BRUME_SHARED Surroundings surroundingsAt(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                             StepParameters parameters,
                                          TickFields fields, uint noiseSeed, vec3 position) {
     BRUME_PRECISE vec3 acceleration = parameters.acceleration;
     BRUME_PRECISE vec3 wind = parameters.wind;
@@ -69,10 +70,29 @@ BRUME_SHARED Surroundings surroundingsAt(BRUME_EFFECT_PARAMETER StepParameters p
     for (uint i = 0u; i < BRUME_COUNT(vortex); ++i)
         wind = wind + vortexVelocity(BRUME_EFFECT.vortex[i], position) *
                           BRUME_EFFECT.vortex[i].weight;
+    for (uint i = 0u; i < BRUME_COUNT(velocityField); ++i)
+        if (BRUME_EFFECT.velocityField[i].advects == 0u)
+            wind = wind + velocityFieldAt(BRUME_FIELDS_ARGUMENT BRUME_EFFECT.velocityField[i],
+                                          position) *
+                              BRUME_EFFECT.velocityField[i].weight;
+    for (uint i = 0u; i < BRUME_COUNT(buoyancy); ++i)
+        acceleration = acceleration + buoyancyAcceleration(
+                                          BRUME_FIELDS_ARGUMENT BRUME_EFFECT.buoyancy[i], position);
     Surroundings result;
     result.acceleration = acceleration;
     result.wind = wind;
     return result;
+}
+
+/// How fast the fields that advect carry a particle along, m/s.
+BRUME_SHARED vec3 advectionAt(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER vec3 position) {
+    BRUME_PRECISE vec3 velocity = vec3(0.0f);
+    for (uint i = 0u; i < BRUME_COUNT(velocityField); ++i)
+        if (BRUME_EFFECT.velocityField[i].advects != 0u)
+            velocity = velocity + velocityFieldAt(BRUME_FIELDS_ARGUMENT
+                                                      BRUME_EFFECT.velocityField[i],
+                                                  position);
+    return velocity;
 }
 
 /// Half a tick of all that drags by the square of the speed.
@@ -97,7 +117,7 @@ BRUME_SHARED void integrate(BRUME_INOUT(vec3) position, BRUME_INOUT(vec3) veloci
 }
 
 /// The earliest hit of the straight way from start to end.
-BRUME_SHARED Hit findHit(BRUME_EFFECT_PARAMETER vec3 start, vec3 end) {
+BRUME_SHARED Hit findHit(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER vec3 start, vec3 end) {
     Hit hit = noHit();
     for (uint i = 0u; i < BRUME_COUNT(planeCollider); ++i)
         sweepPlane(BRUME_EFFECT.planeCollider[i], start, end, hit);
@@ -107,6 +127,8 @@ BRUME_SHARED Hit findHit(BRUME_EFFECT_PARAMETER vec3 start, vec3 end) {
         sweepBox(BRUME_EFFECT.boxCollider[i], start, end, hit);
     for (uint i = 0u; i < BRUME_COUNT(capsuleCollider); ++i)
         sweepCapsule(BRUME_EFFECT.capsuleCollider[i], start, end, hit);
+    for (uint i = 0u; i < BRUME_COUNT(levelSetCollider); ++i)
+        sweepLevelSet(BRUME_FIELDS_ARGUMENT BRUME_EFFECT.levelSetCollider[i], start, end, hit);
     return hit;
 }
 
@@ -123,8 +145,9 @@ BRUME_CONST uint kMaxHitsPerTick = 4u;
 /// Follows the way of a tick from (start, velocity before it) to `particle`, bounces included.
 /// Between two hits the way is taken as straight; after the last that is followed, the particle
 /// stays where it was hit, so that nothing is ever passed through.
-BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER StepParameters parameters, vec3 start,
-                                 vec3 startVelocity, float seconds,
+BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                     StepParameters parameters,
+                                 vec3 start, vec3 startVelocity, float seconds,
                                  BRUME_INOUT(Particle) particle) {
     StepOutcome outcome;
     outcome.hasHit = 0u;
@@ -140,8 +163,12 @@ BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER StepParameters parameter
     BRUME_PRECISE float left = 1.0f;  // part of `seconds`
     BRUME_PRECISE float ticks = seconds * parameters.ticksPerSecond;
     for (uint i = 0u; i < kMaxHitsPerTick; ++i) {
-        Hit hit = findHit(BRUME_EFFECT_ARGUMENT from, to);
+        Hit hit = findHit(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT from, to);
         if (hit.time > 1.0f) break;
+        if (hit.response == kResponseWait) {
+            to = hit.position;
+            break;
+        }
         left = left - left * hit.time;
         BRUME_PRECISE vec3 met = before + (after - before) * hit.time;
         BRUME_PRECISE vec3 gain = after - met;  // what is still to come in this tick
@@ -195,7 +222,8 @@ BRUME_SHARED void killIfNotFinite(BRUME_INOUT(Particle) particle) {
 }
 
 /// `seconds` of a tick with the factors of the exact step over them.
-BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER StepParameters parameters,
+BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                          StepParameters parameters,
                                       TickFields fields, uint noiseSeed, float seconds, float loss,
                                       float velocityGain, float positionGain,
                                       BRUME_INOUT(Particle) particle) {
@@ -203,11 +231,16 @@ BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER StepParameters para
     vec3 start = particle.position;
     vec3 before = dragQuadratically(BRUME_EFFECT_ARGUMENT particle.velocity, halfSeconds);
     BRUME_PRECISE vec3 middle = start + before * halfSeconds;
-    Surroundings around =
-        surroundingsAt(BRUME_EFFECT_ARGUMENT parameters, fields, noiseSeed, middle);
-    vec3 end = start;
+    if (BRUME_COUNT(velocityField) > 0u)
+        middle = middle +
+                 advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT start) * halfSeconds;
+    Surroundings around = surroundingsAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters,
+                                         fields, noiseSeed, middle);
+    BRUME_PRECISE vec3 end = start;
     vec3 velocity = before;
     integrate(end, velocity, around, seconds, loss, velocityGain, positionGain);
+    if (BRUME_COUNT(velocityField) > 0u)
+        end = end + advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT middle) * seconds;
     velocity = dragQuadratically(BRUME_EFFECT_ARGUMENT velocity, halfSeconds);
     if (isStuck(particle.life)) {
         end = start;
@@ -217,7 +250,8 @@ BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER StepParameters para
     particle.position = end;
     particle.velocity = velocity;
     StepOutcome outcome =
-        collide(BRUME_EFFECT_ARGUMENT parameters, start, before, seconds, particle);
+        collide(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, start, before, seconds,
+                particle);
     for (uint i = 0u; i < BRUME_COUNT(attractor); ++i)
         if (attractorSwallows(BRUME_EFFECT.attractor[i], start, particle.position))
             particle.life.lifetimeTicks = -1.0f;
@@ -228,16 +262,18 @@ BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER StepParameters para
 }
 
 /// A whole tick. `parameters` are those of the effect, loaded once for many particles.
-BRUME_SHARED StepOutcome stepParticle(BRUME_EFFECT_PARAMETER StepParameters parameters,
+BRUME_SHARED StepOutcome stepParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                          StepParameters parameters,
                                       TickFields fields, uint noiseSeed,
                                       BRUME_INOUT(Particle) particle) {
-    return moveParticle(BRUME_EFFECT_ARGUMENT parameters, fields, noiseSeed,
+    return moveParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed,
                         parameters.tickSeconds, parameters.loss, parameters.velocityGain,
                         parameters.positionGain, particle);
 }
 
 /// A part of a tick, as after a birth within it.
-BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER StepParameters parameters,
+BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                              StepParameters parameters,
                                           TickFields fields, uint noiseSeed, float part,
                                           BRUME_INOUT(Particle) particle) {
     BRUME_PRECISE float seconds = parameters.tickSeconds * part;
@@ -246,7 +282,7 @@ BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER StepParameters 
     exponentialFactors(drag, parameters.dragHalvings, loss, phi1, phi2);
     BRUME_PRECISE float velocityGain = seconds * phi1;
     BRUME_PRECISE float positionGain = seconds * seconds * phi2;
-    return moveParticle(BRUME_EFFECT_ARGUMENT parameters, fields, noiseSeed, seconds, loss,
+    return moveParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, seconds, loss,
                         velocityGain, positionGain, particle);
 }
 

@@ -52,6 +52,12 @@ void addRender(CLI::App& app, Invocation& invocation) {
     command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels");
     auto* frame = command->add_option("--frame", a.frame, "Effects at this frame's time");
     command->add_option("--frames", a.frames, "Frames FIRST:LAST, both included")->excludes(frame);
+    command->add_option("--shard", a.shard,
+                        "I/N: only the I-th of N parts of the frames; 0/N: write the checkpoints "
+                        "that the parts start from");
+    command->add_option("--checkpoints", a.checkpoints,
+                        "Folder of simulation states to start from, written by --shard 0/N");
+    command->add_flag("--resume", a.resume, "Leave out frames whose files are there already");
     command->add_option("--frame-rate", a.frameRate, "Frames per second of --frame and --frames")
         ->check(CLI::Range(1e-3, 1e6))
         ->capture_default_str();

@@ -119,13 +119,13 @@ void renderRounds(std::vector<Contestant>& contestants, const MeasureOptions& op
 reference::Result renderCommonReference(const render::PreparedScene& scene,
                                         const std::vector<Contestant>& contestants,
                                         const ProgressCallback& progress) {
-    std::vector<scene::MediumSphere> particles;
+    render::EffectContents effects;
     for (const Contestant& contestant : contestants)
         if (contestant.renderer) {
-            particles = contestant.renderer->readParticles();
+            effects = contestant.renderer->readEffects();
             break;
         }
-    return renderReference(scene, particles, progress);
+    return renderReference(scene, effects, progress);
 }
 
 }  // namespace
@@ -181,13 +181,15 @@ void overrideShadows(scene::Scene& scene, const std::string& shadow) {
 }
 
 reference::Result renderReference(const render::PreparedScene& scene,
-                                  std::span<const scene::MediumSphere> particles,
+                                  const render::EffectContents& effects,
                                   const ProgressCallback& progress) {
     std::vector<scene::MediumSphere> spheres = scene.spheres;
-    spheres.insert(spheres.end(), particles.begin(), particles.end());
+    spheres.insert(spheres.end(), effects.spheres.begin(), effects.spheres.end());
+    scene::Scene all = scene.scene;
+    all.meshes.insert(all.meshes.end(), effects.surfaces.begin(), effects.surfaces.end());
     reference::Options options;
     options.progress = progress;
-    return reference::render({scene.scene, scene.volumes, spheres}, options);
+    return reference::render({all, scene.volumes, spheres}, options);
 }
 
 Comparison compareWithReference(const render::Result& frame, const reference::Result& exact) {

@@ -47,7 +47,7 @@ void overrideShadows(scene::Scene& scene, const std::string& shadow);
 
 /// The exact image of the scene with these particles.
 reference::Result renderReference(const render::PreparedScene& scene,
-                                  std::span<const scene::MediumSphere> particles,
+                                  const render::EffectContents& effects,
                                   const ProgressCallback& progress = {});
 
 /// Compares a frame with the exact image; where the two see different triangles (if the frame has

@@ -2,6 +2,8 @@
 #include <core/assert.hpp>
 #include <core/image.hpp>
 
+#include <cmath>
+
 #include <cstring>
 
 namespace brume {
@@ -33,6 +35,10 @@ Image downsample(const Image& image, int n) {
             result.at(x, y) = vec3(sum / static_cast<double>(n * n));
         }
     return result;
+}
+
+double linearFromSrgb(double x) {
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace brume

@@ -27,6 +27,9 @@ struct Image {
 /// 64-bit FNV-1a hash of the size and of every bit of the pixels: equal images, equal hashes.
 std::uint64_t computeHash(const Image& image);
 
+/// The sRGB transfer curve, decoding: [0, 1] to [0, 1] (IEC 61966-2-1).
+double linearFromSrgb(double x);
+
 /// Mean of n x n blocks (box filter in double); the size must be a multiple of n.
 Image downsample(const Image& image, int n);
 

@@ -192,10 +192,6 @@ void writePixels(const std::filesystem::path& file, const Image& image, const ch
 
 }  // namespace
 
-double linearFromSrgb(double x) {
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
 float toneMap(float radiance) {
     if (!(radiance > 0)) return 0;  // NaN too
     if (radiance <= 0.8f) return radiance;

@@ -29,9 +29,6 @@ std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::s
 /// then renamed). Throws an Error of kind Failure, of kind Input for another extension.
 void writeImage(const std::filesystem::path& file, const Image& image);
 
-/// The sRGB transfer curve, decoding: [0, 1] to [0, 1] (IEC 61966-2-1).
-double linearFromSrgb(double x);
-
 /// The tone curve of PNG output: linear up to 0.8, above it a shoulder 1 - 0.2/(1 + (x - 0.8)/0.2)
 /// that reaches 1 at infinity, per channel. Continuous with its first derivative.
 float toneMap(float radiance);

@@ -69,7 +69,14 @@ class PassBuilder {
     /// For a raster pass without attachments, or one over part of its targets.
     PassBuilder& renderArea(VkExtent2D extent);
 
-    /// Called by FrameBuilder::execute(), once. Several dispatches within one pass that depend on
+    /// A raster pass that others may draw into: execute() returns after record(), inside of its
+    /// rendering, and resume() goes on.
+    PassBuilder& handOver();
+    /// A pass within rendering that the frame's caller begins and ends: execute() returns before
+    /// it and resume() records it. Attachments are the caller's.
+    PassBuilder& insideCallersRendering();
+
+    /// Called by FrameBuilder::execute(), once each time. Several dispatches within one pass that depend on
     /// each other place Commands::computeBarrier() between them.
     PassBuilder& record(RecordFunction function);
 
@@ -96,6 +103,8 @@ class PassBuilder {
     gpu::DepthAttachment mDepthAttachment;
     VkExtent2D mArea{};
     bool mIsRaster = false;
+    bool mIsHandOver = false;
+    bool mIsInsideCallers = false;
     RecordFunction mRecord;
 };
 
@@ -121,9 +130,10 @@ struct FrameDescription {
     std::string text() const;  ///< as lines
 };
 
-/// One frame: made, declared, executed, thrown away. Passes run in the order of their declaration.
-/// It records into the commands given to execute() and never submits or waits. Everything imported
-/// must live until the frame is retired.
+/// One frame: made, declared, executed, thrown away or executed again. Passes run in the order of
+/// their declaration. It records into the commands given to execute() and never submits or waits.
+/// Everything imported must live until the frame is retired. From the second time on, executing
+/// allocates nothing, on the device or on the heap, unless passes do.
 class FrameBuilder {
   public:
     explicit FrameBuilder(ResourcePool& pool) : mPool(&pool) {}
@@ -155,8 +165,12 @@ class FrameBuilder {
     FrameDescription describe() const;
 
     /// Records everything. Throws an AssertionError if a pass reads a transient resource that none
-    /// has written. `timers` (may be null) is not reset here.
-    void execute(gpu::Commands& commands, gpu::TimerPool* timers = nullptr);
+    /// has written. `timers` (may be null) is not reset here. After a throw, the frame may be
+    /// executed anew. Returns whether everything is recorded: false at a pass that is handed over
+    /// or inside the caller's rendering, up to which it is; resume() then goes on.
+    bool execute(gpu::Commands& commands, gpu::TimerPool* timers = nullptr);
+    bool resume(gpu::Commands& commands, gpu::TimerPool* timers = nullptr);
+    bool isPaused() const { return mIsPaused; }
 
   private:
     friend class PassResources;
@@ -170,6 +184,11 @@ class FrameBuilder {
         VkAccessFlags2 writeAccess = 0;
         VkPipelineStageFlags2 readStages = 0;
         std::vector<Visible> visible;
+        void clear() {  // keeps its memory
+            writeStages = readStages = 0;
+            writeAccess = 0;
+            visible.clear();
+        }
     };
     struct Resource {
         bool isImage = false;
@@ -197,7 +216,14 @@ class FrameBuilder {
         VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
         bool isRead = false;
     };
-    struct Barriers;
+    // What one pass waits for; buffers share one global barrier.
+    struct Barriers {
+        VkMemoryBarrier2 memory{};
+        std::vector<VkImageMemoryBarrier2> images;
+        void addMemory(VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
+                       const Demand& demand);
+        void record(gpu::Commands& commands);
+    };
 
     void requireDeclared(std::size_t pass, bool isImage, std::uint32_t index) const;
     void findLives();
@@ -205,12 +231,15 @@ class FrameBuilder {
     void giveBack(std::size_t pass);
     void checkReads(const PassBuilder& pass);
     std::vector<Demand> demandsOf(const PassBuilder& pass) const;
-    void synchronize(const Demand& demand, Barriers& barriers);
-    void changeLayout(const Demand& demand, State& state, Barriers& barriers);
-    void orderMemory(const Demand& demand, State& state, Barriers& barriers);
-    void recordPass(gpu::Commands& commands, std::size_t pass);
-    void recordRaster(gpu::Commands& commands, const PassBuilder& pass,
-                      const PassResources& resources);
+    void synchronize(const Demand& demand);
+    void changeLayout(const Demand& demand, State& state);
+    void orderMemory(const Demand& demand, State& state);
+    void plan();
+    void restart(gpu::Commands& commands);
+    bool run(gpu::Commands& commands, gpu::TimerPool* timers);
+    void beginPass(gpu::Commands& commands, std::size_t pass, gpu::TimerPool* timers);
+    void endPass(gpu::Commands& commands, std::size_t pass, gpu::TimerPool* timers);
+    void beginRaster(gpu::Commands& commands, const PassBuilder& pass);
     void finish(gpu::Commands& commands);
 
     ResourcePool* mPool;
@@ -218,7 +247,11 @@ class FrameBuilder {
     std::vector<Resource> mResources;
     std::map<const void*, State> mStates;  // by gpu::Buffer or gpu::Image
     std::vector<std::pair<std::uint32_t, Access>> mFinal;
-    bool mIsExecuted = false;
+    std::vector<std::vector<Demand>> mDemands;  // by pass, once planned
+    Barriers mBarriers;
+    std::size_t mNext = 0;  // pass, while executing
+    std::size_t mScope = 0;
+    bool mIsPaused = false;
 };
 
 }  // namespace brume::frame

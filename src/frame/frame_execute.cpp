@@ -25,31 +25,28 @@ VkImageLayout combineLayouts(VkImageLayout a, VkImageLayout b, const std::string
 
 }  // namespace
 
-// What one pass waits for; buffers share one global barrier.
-struct FrameBuilder::Barriers {
-    VkMemoryBarrier2 memory{};
-    std::vector<VkImageMemoryBarrier2> images;
+void FrameBuilder::Barriers::addMemory(VkPipelineStageFlags2 sourceStages,
+                                       VkAccessFlags2 sourceAccess, const Demand& demand) {
+    memory.srcStageMask |= sourceStages;
+    memory.srcAccessMask |= sourceAccess;
+    memory.dstStageMask |= demand.stages;
+    memory.dstAccessMask |= demand.access;
+}
 
-    void addMemory(VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
-                   const Demand& demand) {
-        memory.srcStageMask |= sourceStages;
-        memory.srcAccessMask |= sourceAccess;
-        memory.dstStageMask |= demand.stages;
-        memory.dstAccessMask |= demand.access;
-    }
-
-    void record(gpu::Commands& commands) {
-        if (memory.dstStageMask == 0 && images.empty()) return;
-        memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-        VkDependencyInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-        info.memoryBarrierCount = memory.dstStageMask ? 1 : 0;
-        info.pMemoryBarriers = &memory;
-        info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
-        info.pImageMemoryBarriers = images.data();
-        commands.pipelineBarrier(info);
-    }
-};
+// Records what has gathered and begins anew.
+void FrameBuilder::Barriers::record(gpu::Commands& commands) {
+    if (memory.dstStageMask == 0 && images.empty()) return;
+    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = memory.dstStageMask ? 1 : 0;
+    info.pMemoryBarriers = &memory;
+    info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
+    info.pImageMemoryBarriers = images.data();
+    commands.pipelineBarrier(info);
+    memory = {};
+    images.clear();
+}
 
 void FrameBuilder::findLives() {
     for (std::size_t i = 0; i < mPasses.size(); ++i)
@@ -121,7 +118,7 @@ std::vector<FrameBuilder::Demand> FrameBuilder::demandsOf(const PassBuilder& pas
 }
 
 // A layout change is a write by the barrier itself, which the demanding stages see.
-void FrameBuilder::changeLayout(const Demand& demand, State& state, Barriers& barriers) {
+void FrameBuilder::changeLayout(const Demand& demand, State& state) {
     Resource& resource = mResources[demand.resource];
     // A transient image that takes over another's memory has no content yet.
     const bool isFirst = resource.isTransient && !demand.isRead && !resource.isStarted;
@@ -139,31 +136,31 @@ void FrameBuilder::changeLayout(const Demand& demand, State& state, Barriers& ba
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = resource.image->handle();
     barrier.subresourceRange = resource.image->range();
-    barriers.images.push_back(barrier);
+    mBarriers.images.push_back(barrier);
     resource.image->setLayout(demand.layout);
-    state = {};
+    state.clear();
     state.writeStages = demand.stages;
     state.writeAccess = demand.writeAccess;
     if (demand.writeAccess) return;
     state.readStages = demand.stages;
-    state.visible = {{demand.stages, demand.access}};
+    state.visible.push_back({demand.stages, demand.access});
 }
 
-void FrameBuilder::synchronize(const Demand& demand, Barriers& barriers) {
+void FrameBuilder::synchronize(const Demand& demand) {
     Resource& resource = mResources[demand.resource];
     State& state = mStates[resource.object()];
     if (resource.isImage && resource.image->layout() != demand.layout)
-        changeLayout(demand, state, barriers);
+        changeLayout(demand, state);
     else
-        orderMemory(demand, state, barriers);
+        orderMemory(demand, state);
     resource.isStarted = true;
 }
 
-void FrameBuilder::orderMemory(const Demand& demand, State& state, Barriers& barriers) {
+void FrameBuilder::orderMemory(const Demand& demand, State& state) {
     if (demand.writeAccess) {
         const VkPipelineStageFlags2 before = state.writeStages | state.readStages;
-        if (before) barriers.addMemory(before, state.writeAccess, demand);
-        state = {};
+        if (before) mBarriers.addMemory(before, state.writeAccess, demand);
+        state.clear();
         state.writeStages = demand.stages;
         state.writeAccess = demand.writeAccess;
         return;
@@ -174,43 +171,50 @@ void FrameBuilder::orderMemory(const Demand& demand, State& state, Barriers& bar
                    (v.access & demand.access) == demand.access;
         });
     if (state.writeStages && !isVisible) {
-        barriers.addMemory(state.writeStages, state.writeAccess, demand);
+        mBarriers.addMemory(state.writeStages, state.writeAccess, demand);
         state.visible.push_back({demand.stages, demand.access});
     }
     state.readStages |= demand.stages;
 }
 
-void FrameBuilder::recordRaster(gpu::Commands& commands, const PassBuilder& pass,
-                                const PassResources& resources) {
-    std::vector<gpu::ColorAttachment> colors;
-    for (const PassBuilder::ColorUse& use : pass.mColors) {
-        colors.push_back(use.attachment);
-        colors.back().image = mResources[use.image.index].image;
+void FrameBuilder::beginRaster(gpu::Commands& commands, const PassBuilder& pass) {
+    std::array<gpu::ColorAttachment, gpu::kMaxColors> colors;
+    const std::size_t count = std::min(pass.mColors.size(), colors.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        colors[i] = pass.mColors[i].attachment;
+        colors[i].image = mResources[pass.mColors[i].image.index].image;
     }
     std::optional<gpu::DepthAttachment> depth;
     if (pass.mDepth) {
         depth = pass.mDepthAttachment;
         depth->image = mResources[pass.mDepth.index].image;
     }
-    commands.beginRendering(colors, depth, pass.mArea);
-    if (pass.mRecord) pass.mRecord(commands, resources);
-    commands.endRendering();
+    commands.beginRendering(std::span(colors.data(), count), depth, pass.mArea);
 }
 
-void FrameBuilder::recordPass(gpu::Commands& commands, std::size_t index) {
+void FrameBuilder::beginPass(gpu::Commands& commands, std::size_t index, gpu::TimerPool* timers) {
     const PassBuilder& pass = mPasses[index];
-    Barriers barriers;
-    for (const Demand& demand : demandsOf(pass)) synchronize(demand, barriers);
-    barriers.record(commands);
-    const PassResources resources(*this, index);
-    if (pass.mIsRaster)
-        recordRaster(commands, pass, resources);
-    else if (pass.mRecord)
-        pass.mRecord(commands, resources);
+    checkReads(pass);
+    materialize(index);
+    if (!pass.mIsInsideCallers) {
+        commands.beginLabel(pass.mName);
+        mScope = timers ? timers->begin(commands, pass.mName) : 0;
+    }
+    for (const Demand& demand : mDemands[index]) synchronize(demand);
+    mBarriers.record(commands);
+}
+
+void FrameBuilder::endPass(gpu::Commands& commands, std::size_t index, gpu::TimerPool* timers) {
+    const PassBuilder& pass = mPasses[index];
+    if (!pass.mIsInsideCallers) {
+        if (pass.mIsRaster) commands.endRendering();
+        if (timers) timers->end(commands, mScope);
+        commands.endLabel();
+    }
+    giveBack(index);
 }
 
 void FrameBuilder::finish(gpu::Commands& commands) {
-    Barriers barriers;
     for (const auto& [index, access] : mFinal) {
         const AccessInfo& info = accessInfo(access);
         synchronize({.resource = index,
@@ -218,34 +222,69 @@ void FrameBuilder::finish(gpu::Commands& commands) {
                      .access = info.read | info.write,
                      .writeAccess = info.write,
                      .layout = mResources[index].isImage ? info.layout : VK_IMAGE_LAYOUT_UNDEFINED,
-                     .isRead = true},
-                    barriers);
+                     .isRead = true});
     }
-    barriers.record(commands);
+    mBarriers.record(commands);
 }
 
-void FrameBuilder::execute(gpu::Commands& commands, gpu::TimerPool* timers) {
-    if (mIsExecuted) throw AssertionError("a frame is executed only once");
-    mIsExecuted = true;
+// What does not change from one execution to the next.
+void FrameBuilder::plan() {
+    if (mDemands.size() == mPasses.size()) return;
     findLives();
+    mDemands.clear();
+    for (const PassBuilder& pass : mPasses) mDemands.push_back(demandsOf(pass));
+}
+
+void FrameBuilder::restart(gpu::Commands& commands) {
+    plan();
+    for (auto& [object, state] : mStates) state.clear();
+    for (Resource& resource : mResources) resource.isWritten = resource.isStarted = false;
+    mBarriers.memory = {};
+    mBarriers.images.clear();
     mPool->beginFrame();
+    mNext = 0;
     // One barrier orders the frame after all earlier work on the queue, whatever that was; within
     // the frame every dependency is then exact.
     constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     commands.memoryBarrier(kAll, VK_ACCESS_2_MEMORY_WRITE_BIT, kAll,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
-    for (std::size_t i = 0; i < mPasses.size(); ++i) {
-        checkReads(mPasses[i]);
-        materialize(i);
-        commands.beginLabel(mPasses[i].mName);
-        const std::size_t scope = timers ? timers->begin(commands, mPasses[i].mName) : 0;
-        recordPass(commands, i);
-        if (timers) timers->end(commands, scope);
-        commands.endLabel();
-        giveBack(i);
+}
+
+// From mNext on, until the end or a pass where the caller goes on.
+bool FrameBuilder::run(gpu::Commands& commands, gpu::TimerPool* timers) {
+    for (; mNext < mPasses.size(); ++mNext) {
+        const PassBuilder& pass = mPasses[mNext];
+        beginPass(commands, mNext, timers);
+        mIsPaused = pass.mIsInsideCallers || pass.mIsHandOver;
+        if (pass.mIsInsideCallers) return false;
+        if (pass.mIsRaster) beginRaster(commands, pass);
+        if (pass.mRecord) pass.mRecord(commands, PassResources(*this, mNext));
+        if (pass.mIsHandOver) return false;
+        endPass(commands, mNext, timers);
     }
     finish(commands);
     mPool->endFrame();
+    return true;
+}
+
+bool FrameBuilder::execute(gpu::Commands& commands, gpu::TimerPool* timers) {
+    mIsPaused = false;
+    restart(commands);
+    return run(commands, timers);
+}
+
+bool FrameBuilder::resume(gpu::Commands& commands, gpu::TimerPool* timers) {
+    if (!mIsPaused) throw AssertionError("resuming a frame that is not paused");
+    mIsPaused = false;
+    const PassBuilder& pass = mPasses[mNext];
+    if (pass.mIsInsideCallers) {
+        if (pass.mRecord) pass.mRecord(commands, PassResources(*this, mNext));
+        if (mNext + 1 < mPasses.size() || !mFinal.empty())
+            throw AssertionError("a pass inside the caller's rendering must be the frame's last");
+    }
+    endPass(commands, mNext, timers);
+    ++mNext;
+    return run(commands, timers);
 }
 
 }  // namespace brume::frame

@@ -74,6 +74,16 @@ PassBuilder& PassBuilder::renderArea(VkExtent2D extent) {
     return *this;
 }
 
+PassBuilder& PassBuilder::handOver() {
+    mIsHandOver = true;
+    return *this;
+}
+
+PassBuilder& PassBuilder::insideCallersRendering() {
+    mIsInsideCallers = true;
+    return *this;
+}
+
 PassBuilder& PassBuilder::record(RecordFunction function) {
     mRecord = std::move(function);
     return *this;

@@ -11,9 +11,9 @@ bool fits(const gpu::Buffer& buffer, const gpu::BufferDesc& desc) {
 }
 
 bool fits(const gpu::Image& image, const gpu::ImageDesc& desc) {
-    gpu::ImageDesc renamed = desc;
-    renamed.name = image.name();
-    return image.desc() == renamed;
+    const gpu::ImageDesc& own = image.desc();
+    return own.format == desc.format && own.width == desc.width && own.height == desc.height &&
+           own.depth == desc.depth && own.layers == desc.layers && own.usage == desc.usage;
 }
 
 // Free slots of the same name go first, so that debuggers show the name that is meant.

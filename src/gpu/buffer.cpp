@@ -38,7 +38,7 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : mName(desc.name), mByte
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = mBytes;
     info.usage = kUsage;
-    device.check(vk.vkCreateBuffer(device.handle(), &info, nullptr, &mHandle), kDoing, mName);
+    device.check(vk.vkCreateBuffer(device.handle(), &info, device.allocator(), &mHandle), kDoing, mName);
     mOwner.add(owned(VK_OBJECT_TYPE_BUFFER, mHandle));
     device.setName(VK_OBJECT_TYPE_BUFFER, (std::uint64_t)mHandle, mName);
     VkMemoryRequirements needed{};

@@ -83,7 +83,7 @@ VkDescriptorType descriptorType(BindingType type) {
 
 void Commands::bindPipeline(const Pipeline& pipeline) {
     mPipeline = &pipeline;
-    mBound.clear();
+    mBoundCount = 0;
     mIsDirty = true;
     mDevice->vk().vkCmdBindPipeline(mHandle, pipeline.bindPoint(), pipeline.handle());
 }
@@ -105,12 +105,14 @@ const Binding& Commands::requireBinding(std::uint32_t binding, std::uint32_t ele
 
 void Commands::setBound(const Bound& bound) {
     mIsDirty = true;
-    for (Bound& b : mBound) {
+    for (Bound& b : std::span(mBound.data(), mBoundCount)) {
         if (b.binding != bound.binding || b.element != bound.element) continue;
         b = bound;
         return;
     }
-    mBound.push_back(bound);
+    if (mBoundCount == kMaxBindings)
+        throw misuse(mPipeline, fmt::format("more than {} bindings", kMaxBindings));
+    mBound[mBoundCount++] = bound;
 }
 
 void Commands::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t element) {
@@ -165,16 +167,19 @@ void Commands::flush(VkPipelineBindPoint bindPoint) {
     if (!mPipeline || mPipeline->bindPoint() != bindPoint)
         throw misuse(mPipeline, "it is of the wrong kind for this command");
     if (!mIsDirty) return;
+    const std::span bounds(mBound.data(), mBoundCount);
     for (const Binding& b : mPipeline->bindings())
         for (std::uint32_t element = 0; element < b.count; ++element)
-            if (std::none_of(mBound.begin(), mBound.end(), [&](const Bound& bound) {
+            if (std::none_of(bounds.begin(), bounds.end(), [&](const Bound& bound) {
                     return bound.binding == b.number && bound.element == element;
                 }))
                 throw misuse(mPipeline,
                              fmt::format("binding {}[{}] is missing", b.number, element));
-    std::vector<VkWriteDescriptorSet> writes;
-    for (const Bound& bound : mBound) {
-        VkWriteDescriptorSet write{};
+    std::array<VkWriteDescriptorSet, kMaxBindings> writes;
+    std::uint32_t count = 0;
+    for (const Bound& bound : bounds) {
+        VkWriteDescriptorSet& write = writes[count++];
+        write = {};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstBinding = bound.binding;
         write.dstArrayElement = bound.element;
@@ -182,11 +187,9 @@ void Commands::flush(VkPipelineBindPoint bindPoint) {
         write.descriptorType = bound.type;
         write.pBufferInfo = &bound.buffer;
         write.pImageInfo = &bound.image;
-        writes.push_back(write);
     }
-    if (!writes.empty())
-        mDevice->vk().vkCmdPushDescriptorSetKHR(mHandle, bindPoint, mPipeline->layout(), 0,
-                                                static_cast<std::uint32_t>(writes.size()),
+    if (count > 0)
+        mDevice->vk().vkCmdPushDescriptorSetKHR(mHandle, bindPoint, mPipeline->layout(), 0, count,
                                                 writes.data());
     mIsDirty = false;
 }
@@ -247,15 +250,16 @@ void Commands::beginRendering(std::span<const ColorAttachment> colors,
     if (area.width == 0 && !colors.empty()) area = colors[0].image->extent();
     if (area.width == 0 && depth) area = depth->image->extent();
     if (area.width == 0) throw AssertionError("beginRendering: no attachment and no area");
-    std::vector<VkRenderingAttachmentInfo> colorInfos;
-    for (const ColorAttachment& color : colors) colorInfos.push_back(colorInfo(color));
+    if (colors.size() > kMaxColors) throw AssertionError("beginRendering: too many colours");
+    std::array<VkRenderingAttachmentInfo, kMaxColors> colorInfos;
+    std::transform(colors.begin(), colors.end(), colorInfos.begin(), colorInfo);
     VkRenderingAttachmentInfo depthAttachment{};
     if (depth) depthAttachment = depthInfo(*depth);
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     info.renderArea = {{0, 0}, area};
     info.layerCount = 1;
-    info.colorAttachmentCount = static_cast<std::uint32_t>(colorInfos.size());
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
     info.pColorAttachments = colorInfos.data();
     info.pDepthAttachment = depth ? &depthAttachment : nullptr;
     mDevice->vk().vkCmdBeginRendering(mHandle, &info);

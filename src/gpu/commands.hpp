@@ -11,9 +11,11 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 namespace brume::gpu {
+
+/// Of one pipeline, and colour attachments of one pass: what every Vulkan 1.3 device has.
+inline constexpr std::size_t kMaxBindings = 32, kMaxColors = 8;
 
 enum class LoadOp { Load, Clear, DontCare };
 
@@ -104,7 +106,8 @@ class Commands {
     void clearColorImage(const Image& image, const std::array<float, 4>& value);
     void clearColorImage(const Image& image, const std::array<std::uint32_t, 4>& value);
 
-    void beginLabel(const std::string& name);
+    void beginLabel(const char* name);
+    void beginLabel(const std::string& name) { beginLabel(name.c_str()); }
     void endLabel();
 
     void memoryBarrier(VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
@@ -137,7 +140,8 @@ class Commands {
     Device* mDevice;
     VkCommandBuffer mHandle;
     const Pipeline* mPipeline = nullptr;
-    std::vector<Bound> mBound;
+    std::array<Bound, kMaxBindings> mBound;  // recording allocates nothing
+    std::size_t mBoundCount = 0;
     bool mIsDirty = false;
 };
 

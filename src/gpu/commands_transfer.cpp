@@ -83,7 +83,7 @@ void Commands::clearColorImage(const Image& image, const std::array<std::uint32_
     mDevice->vk().vkCmdClearColorImage(mHandle, image.handle(), image.layout(), &color, 1, &range);
 }
 
-void Commands::beginLabel(const std::string& name) { mDevice->beginLabel(mHandle, name); }
+void Commands::beginLabel(const char* name) { mDevice->beginLabel(mHandle, name); }
 void Commands::endLabel() { mDevice->endLabel(mHandle); }
 
 void Commands::pipelineBarrier(const VkDependencyInfo& dependency) {

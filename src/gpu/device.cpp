@@ -52,6 +52,23 @@ void loadTable(VolkDeviceTable& table, PFN_vkGetDeviceProcAddr getProcAddr, VkDe
     vkGetDeviceProcAddr = previous;
 }
 
+// A host may have forgotten to enable something: better said now than by a crash.
+void requireFunctions(const VolkDeviceTable& table, const std::string& device) {
+    const auto require = [&](const void* function, const char* name, const char* enabledBy) {
+        if (!function)
+            throw inputError("wrapping a device", device,
+                             fmt::format("it has no {}; enable {}", name, enabledBy));
+    };
+    require(reinterpret_cast<const void*>(table.vkCmdPushDescriptorSetKHR),
+            "vkCmdPushDescriptorSetKHR", "the extension VK_KHR_push_descriptor");
+    require(reinterpret_cast<const void*>(table.vkCmdPipelineBarrier2), "vkCmdPipelineBarrier2",
+            "Vulkan 1.3 with the feature synchronization2");
+    require(reinterpret_cast<const void*>(table.vkCmdBeginRendering), "vkCmdBeginRendering",
+            "Vulkan 1.3 with the feature dynamicRendering");
+    require(reinterpret_cast<const void*>(table.vkGetBufferDeviceAddress),
+            "vkGetBufferDeviceAddress", "the feature bufferDeviceAddress");
+}
+
 VkDevice makeDevice(const InstanceFunctions& functions, const Candidate& chosen) {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
@@ -123,6 +140,11 @@ std::unique_ptr<Device> Device::wrap(const HostDevice& host, const Log& log) {
     device->mDevice = host.device;
     device->mQueueFamily = host.queueFamily;
     device->mFeatures = host.features;
+    device->mPipelineCache = host.pipelineCache;
+    device->mIsCacheLent = host.pipelineCache != VK_NULL_HANDLE;
+    if (host.allocator) device->mAllocator = *host.allocator;
+    device->mMemoryHooks = host.memory;
+    device->mBudgetBytes = host.memoryBudgetBytes;
     device->mFunctions = std::make_unique<InstanceFunctions>(
         InstanceFunctions::load(host.getInstanceProcAddr, host.instance, host.debugUtils));
     device->mInfo = describeDevice(*device->mFunctions, host.physicalDevice);
@@ -166,7 +188,8 @@ void Device::createDevice(const DeviceOptions& options) {
 void Device::initialize(const std::filesystem::path& cacheFile) {
     mTable = std::make_unique<VolkDeviceTable>();
     loadTable(*mTable, mFunctions->getDeviceProcAddr, mDevice);
-    mRegistry = std::make_shared<ObjectRegistry>(mDevice, *mTable);
+    requireFunctions(*mTable, mInfo.name);
+    mRegistry = std::make_shared<ObjectRegistry>(*this);
     readLimits();
     mPipelineCacheFile = cacheFile;
     loadPipelineCache();
@@ -182,7 +205,7 @@ Device::~Device() {
         }
         for (const std::string& name : mRegistry->close())
             mLog.warning(fmt::format("destroying device: {} still lives", name));
-        mTable->vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
+        if (!mIsCacheLent) mTable->vkDestroyPipelineCache(mDevice, mPipelineCache, allocator());
     }
     if (!mIsOwner) return;
     if (mDevice && mTable) mTable->vkDestroyDevice(mDevice, nullptr);
@@ -211,9 +234,11 @@ void Device::clearValidationMessages() {
 
 void Device::check(VkResult result, const char* doing, const std::string& object) const {
     if (result == VK_SUCCESS) return;
-    throw failure(doing, object,
-                  fmt::format("{} ({}) from {}", resultName(result), static_cast<int>(result),
-                              mInfo.name.empty() ? "the Vulkan loader" : mInfo.name));
+    throw VulkanError(
+        failure(doing, object,
+                fmt::format("{} ({}) from {}", resultName(result), static_cast<int>(result),
+                            mInfo.name.empty() ? "the Vulkan loader" : mInfo.name)),
+        result);
 }
 
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {
@@ -226,11 +251,11 @@ void Device::setName(VkObjectType type, std::uint64_t handle, const std::string&
     check(mFunctions->setObjectName(mDevice, &info), "naming object", name);
 }
 
-void Device::beginLabel(VkCommandBuffer commands, const std::string& name) const {
+void Device::beginLabel(VkCommandBuffer commands, const char* name) const {
     if (!mFunctions->beginLabel) return;
     VkDebugUtilsLabelEXT label{};
     label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
-    label.pLabelName = name.c_str();
+    label.pLabelName = name;
     mFunctions->beginLabel(commands, &label);
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,24 @@ struct OptionalFeatures {
     bool vertexStores = false;  ///< stores and atomics in vertex shaders
 };
 
+/// A failure that Vulkan has returned.
+class VulkanError : public Error {
+  public:
+    VulkanError(const Error& error, VkResult result) : Error(error), mResult(result) {}
+    VkResult result() const { return mResult; }
+
+  private:
+    VkResult mResult;
+};
+
+/// How a host wants device memory to be allocated: both or neither. Each call is one allocation.
+struct MemoryHooks {
+    void* user = nullptr;
+    VkResult (*allocate)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) =
+        nullptr;
+    void (*free)(void* user, VkDeviceMemory memory) = nullptr;
+};
+
 /// Everything that a host lends. All of it must outlive the Device. The host must have enabled
 /// Vulkan 1.3 with dynamicRendering, synchronization2, maintenance4, bufferDeviceAddress,
 /// scalarBlockLayout, timelineSemaphore, shaderInt64, independentBlend, fragmentStoresAndAtomics,
@@ -56,6 +75,10 @@ struct HostDevice {
     OptionalFeatures features;      ///< those that the host has enabled
     bool debugUtils = false;        ///< VK_EXT_debug_utils is enabled: names and labels
     std::filesystem::path pipelineCacheFile;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;    ///< used instead of an own one
+    const VkAllocationCallbacks* allocator = nullptr;  ///< copied; for every create and destroy
+    MemoryHooks memory;
+    std::uint64_t memoryBudgetBytes = ~std::uint64_t{0};  ///< more is refused
 };
 
 /// One physical device, as `brume list devices` shows it.
@@ -145,6 +168,9 @@ class Device {
     const DeviceInfo& info() const { return mInfo; }
     const Log& log() const { return mLog; }
     VkPipelineCache pipelineCache() const { return mPipelineCache; }
+    /// For every vkCreate and vkDestroy of this layer; may be null.
+    const VkAllocationCallbacks* allocator() const { return mAllocator ? &*mAllocator : nullptr; }
+    const MemoryHooks& memoryHooks() const { return mMemoryHooks; }
     bool isLavapipe() const { return mInfo.type == "cpu"; }  ///< pixels and threads are CPU work
 
     /// Begins a frame (any stretch of recorded commands); its serial counts from 1. Frames are
@@ -168,11 +194,11 @@ class Device {
 
     // For the objects of this layer -------------------------------------------------------------
 
-    /// Throws a failure Error "<doing>: <object>: VK_ERROR_..." unless `result` is a success.
+    /// Throws a VulkanError "<doing>: <object>: VK_ERROR_..." unless `result` is a success.
     void check(VkResult result, const char* doing, const std::string& object) const;
     /// Gives a handle its name in debuggers and messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
-    void beginLabel(VkCommandBuffer commands, const std::string& name) const;
+    void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
     /// Memory for an object; refuses what does not fit, with sizes and limits in the message.
     Allocation allocate(const VkMemoryRequirements& needed, MemoryKind kind, bool hasAddress,
@@ -209,6 +235,10 @@ class Device {
     VkPhysicalDeviceProperties mProperties{};
     std::filesystem::path mPipelineCacheFile;
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
+    bool mIsCacheLent = false;
+    std::optional<VkAllocationCallbacks> mAllocator;
+    MemoryHooks mMemoryHooks;
+    std::uint64_t mBudgetBytes = ~std::uint64_t{0};
     std::shared_ptr<ObjectRegistry> mRegistry;
 };
 

@@ -102,13 +102,20 @@ Allocation Device::allocate(const VkMemoryRequirements& needed, MemoryKind kind,
     const std::uint32_t heap = mMemory.memoryTypes[type].heapIndex;
     const std::uint64_t inUse = mRegistry->allocatedBytes(heap);
     const std::uint64_t heapBytes = mMemory.memoryHeaps[heap].size;
-    const auto refuse = [&](const std::string& limit) {
-        return failure(kDoing, object,
-                       fmt::format("needs {:.1f} MiB, but {}", toMiB(needed.size), limit));
+    const auto refuse = [&](const std::string& limit,
+                            VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        return VulkanError(
+            failure(kDoing, object,
+                    fmt::format("needs {:.1f} MiB, but {}", toMiB(needed.size), limit)),
+            result);
     };
     const std::string heapText = fmt::format("the memory heap has {:.1f} MiB, {:.1f} MiB in use",
                                              toMiB(heapBytes), toMiB(inUse));
     if (needed.size > heapBytes || inUse > heapBytes - needed.size) throw refuse(heapText);
+    const std::uint64_t allInUse = mRegistry->allocatedBytes();
+    if (needed.size > mBudgetBytes || allInUse > mBudgetBytes - needed.size)
+        throw refuse(fmt::format("the host's budget is {:.1f} MiB, {:.1f} MiB in use",
+                                 toMiB(mBudgetBytes), toMiB(allInUse)));
     if (needed.size > mLimits.maxAllocationBytes)
         throw refuse(
             fmt::format("one allocation may have {:.1f} MiB", toMiB(mLimits.maxAllocationBytes)));
@@ -123,9 +130,12 @@ Allocation Device::allocate(const VkMemoryRequirements& needed, MemoryKind kind,
     info.allocationSize = needed.size;
     info.memoryTypeIndex = type;
     Allocation allocation{VK_NULL_HANDLE, needed.size, heap};
-    const VkResult result = mTable->vkAllocateMemory(mDevice, &info, nullptr, &allocation.memory);
+    const VkResult result =
+        mMemoryHooks.allocate
+            ? mMemoryHooks.allocate(mMemoryHooks.user, &info, &allocation.memory)
+            : mTable->vkAllocateMemory(mDevice, &info, allocator(), &allocation.memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        throw refuse("the device is out of memory; " + heapText);
+        throw refuse("the device is out of memory; " + heapText, result);
     check(result, kDoing, object);
     return allocation;
 }

@@ -121,7 +121,7 @@ Image::Image(Device& device, const ImageDesc& desc) : mDesc(desc) {
     checkDesc(device, desc, info);
     const VolkDeviceTable& vk = device.vk();
     mOwner = ObjectOwner(device, "image", desc.name);
-    device.check(vk.vkCreateImage(device.handle(), &info, nullptr, &mHandle), kDoing, desc.name);
+    device.check(vk.vkCreateImage(device.handle(), &info, device.allocator(), &mHandle), kDoing, desc.name);
     mOwner.add(owned(VK_OBJECT_TYPE_IMAGE, mHandle));
     device.setName(VK_OBJECT_TYPE_IMAGE, (std::uint64_t)mHandle, desc.name);
     VkMemoryRequirements needed{};
@@ -139,7 +139,7 @@ Image::Image(Device& device, const ImageDesc& desc) : mDesc(desc) {
     view.viewType = viewType(desc);
     view.format = desc.format;
     view.subresourceRange = range();
-    device.check(vk.vkCreateImageView(device.handle(), &view, nullptr, &mView), kDoing, desc.name);
+    device.check(vk.vkCreateImageView(device.handle(), &view, device.allocator(), &mView), kDoing, desc.name);
     mOwner.add(owned(VK_OBJECT_TYPE_IMAGE_VIEW, mView));
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, (std::uint64_t)mView, desc.name);
 }
@@ -180,7 +180,7 @@ Sampler::Sampler(Device& device, const SamplerDesc& desc) : mName(desc.name) {
     info.addressModeW = toVulkan(desc.addressZ);
     info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
     mOwner = ObjectOwner(device, "sampler", mName);
-    device.check(device.vk().vkCreateSampler(device.handle(), &info, nullptr, &mHandle),
+    device.check(device.vk().vkCreateSampler(device.handle(), &info, device.allocator(), &mHandle),
                  "creating sampler", mName);
     mOwner.add(owned(VK_OBJECT_TYPE_SAMPLER, mHandle));
     device.setName(VK_OBJECT_TYPE_SAMPLER, (std::uint64_t)mHandle, mName);

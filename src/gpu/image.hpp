@@ -63,6 +63,13 @@ class Image {
     VkImageLayout layout() const { return mLayout; }
     void setLayout(VkImageLayout layout) const { mLayout = layout; }
 
+    /// Makes a host's image stand for another one of the same description. Not for own images.
+    void rebind(const HostImage& host) {
+        mHandle = host.image;
+        mView = host.view;
+        mLayout = host.layout;
+    }
+
   private:
     ImageDesc mDesc;
     std::uint64_t mBytes = 0;

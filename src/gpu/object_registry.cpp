@@ -17,40 +17,46 @@ Handle as(const OwnedHandle& owned) {
     return (Handle)owned.handle;
 }
 
-void destroyHandle(VkDevice device, const VolkDeviceTable& vk, const OwnedHandle& h) {
+void destroyHandle(const Device& owner, const OwnedHandle& h) {
+    const VkDevice device = owner.handle();
+    const VolkDeviceTable& vk = owner.vk();
+    const VkAllocationCallbacks* const allocator = owner.allocator();
     switch (h.type) {
         case VK_OBJECT_TYPE_BUFFER:
-            vk.vkDestroyBuffer(device, as<VkBuffer>(h), nullptr);
+            vk.vkDestroyBuffer(device, as<VkBuffer>(h), allocator);
             break;
         case VK_OBJECT_TYPE_IMAGE:
-            vk.vkDestroyImage(device, as<VkImage>(h), nullptr);
+            vk.vkDestroyImage(device, as<VkImage>(h), allocator);
             break;
         case VK_OBJECT_TYPE_IMAGE_VIEW:
-            vk.vkDestroyImageView(device, as<VkImageView>(h), nullptr);
+            vk.vkDestroyImageView(device, as<VkImageView>(h), allocator);
             break;
         case VK_OBJECT_TYPE_SAMPLER:
-            vk.vkDestroySampler(device, as<VkSampler>(h), nullptr);
+            vk.vkDestroySampler(device, as<VkSampler>(h), allocator);
             break;
         case VK_OBJECT_TYPE_DEVICE_MEMORY:
-            vk.vkFreeMemory(device, as<VkDeviceMemory>(h), nullptr);
+            if (owner.memoryHooks().free)
+                owner.memoryHooks().free(owner.memoryHooks().user, as<VkDeviceMemory>(h));
+            else
+                vk.vkFreeMemory(device, as<VkDeviceMemory>(h), allocator);
             break;
         case VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT:
-            vk.vkDestroyDescriptorSetLayout(device, as<VkDescriptorSetLayout>(h), nullptr);
+            vk.vkDestroyDescriptorSetLayout(device, as<VkDescriptorSetLayout>(h), allocator);
             break;
         case VK_OBJECT_TYPE_PIPELINE_LAYOUT:
-            vk.vkDestroyPipelineLayout(device, as<VkPipelineLayout>(h), nullptr);
+            vk.vkDestroyPipelineLayout(device, as<VkPipelineLayout>(h), allocator);
             break;
         case VK_OBJECT_TYPE_PIPELINE:
-            vk.vkDestroyPipeline(device, as<VkPipeline>(h), nullptr);
+            vk.vkDestroyPipeline(device, as<VkPipeline>(h), allocator);
             break;
         case VK_OBJECT_TYPE_QUERY_POOL:
-            vk.vkDestroyQueryPool(device, as<VkQueryPool>(h), nullptr);
+            vk.vkDestroyQueryPool(device, as<VkQueryPool>(h), allocator);
             break;
         case VK_OBJECT_TYPE_COMMAND_POOL:
-            vk.vkDestroyCommandPool(device, as<VkCommandPool>(h), nullptr);
+            vk.vkDestroyCommandPool(device, as<VkCommandPool>(h), allocator);
             break;
         case VK_OBJECT_TYPE_FENCE:
-            vk.vkDestroyFence(device, as<VkFence>(h), nullptr);
+            vk.vkDestroyFence(device, as<VkFence>(h), allocator);
             break;
         default:
             break;
@@ -85,7 +91,7 @@ void ObjectRegistry::addMemory(std::uint64_t id, const Allocation& allocation, M
 
 void ObjectRegistry::destroy(const Entry& entry) {
     for (auto h = entry.handles.rbegin(); h != entry.handles.rend(); ++h)
-        destroyHandle(mDevice, *mVk, *h);
+        destroyHandle(*mDevice, *h);
     if (entry.info.bytes == 0) return;
     mHeapBytes[entry.info.heap] -= entry.info.bytes;
     --mAllocations;

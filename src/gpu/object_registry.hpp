@@ -29,7 +29,7 @@ OwnedHandle owned(VkObjectType type, Handle handle) {
 /// The living and the dying objects of one device.
 class ObjectRegistry {
   public:
-    ObjectRegistry(VkDevice device, const VolkDeviceTable& vk) : mDevice(device), mVk(&vk) {}
+    explicit ObjectRegistry(const Device& device) : mDevice(&device) {}
 
     std::uint64_t add(const std::string& kind, const std::string& name);
     /// Adds a handle to an object; they are destroyed in reverse order, memory last.
@@ -54,8 +54,7 @@ class ObjectRegistry {
     };
     void destroy(const Entry& entry);
 
-    VkDevice mDevice;
-    const VolkDeviceTable* mVk;
+    const Device* mDevice;  // alive until close()
     std::map<std::uint64_t, Entry> mLiving;
     std::vector<Entry> mDying;
     std::uint64_t mNextId = 1;

@@ -59,10 +59,10 @@ class Module {
         info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
         info.codeSize = spirv.size_bytes();
         info.pCode = spirv.data();
-        device.check(device.vk().vkCreateShaderModule(device.handle(), &info, nullptr, &mHandle),
+        device.check(device.vk().vkCreateShaderModule(device.handle(), &info, device.allocator(), &mHandle),
                      kDoing, name);
     }
-    ~Module() { mDevice->vk().vkDestroyShaderModule(mDevice->handle(), mHandle, nullptr); }
+    ~Module() { mDevice->vk().vkDestroyShaderModule(mDevice->handle(), mHandle, mDevice->allocator()); }
     Module(const Module&) = delete;
     Module& operator=(const Module&) = delete;
 
@@ -209,7 +209,7 @@ void Pipeline::makeLayout(Device& device) {
     set.pBindings = entries.data();
     const VolkDeviceTable& vk = device.vk();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    device.check(vk.vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout), kDoing,
+    device.check(vk.vkCreateDescriptorSetLayout(device.handle(), &set, device.allocator(), &setLayout), kDoing,
                  mName);
     mOwner.add(owned(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, setLayout));
     const VkPushConstantRange range{mStages, 0, mPushConstantBytes};
@@ -219,7 +219,7 @@ void Pipeline::makeLayout(Device& device) {
     layout.pSetLayouts = &setLayout;
     layout.pushConstantRangeCount = mPushConstantBytes > 0 ? 1 : 0;
     layout.pPushConstantRanges = &range;
-    device.check(vk.vkCreatePipelineLayout(device.handle(), &layout, nullptr, &mLayout), kDoing,
+    device.check(vk.vkCreatePipelineLayout(device.handle(), &layout, device.allocator(), &mLayout), kDoing,
                  mName);
     mOwner.add(owned(VK_OBJECT_TYPE_PIPELINE_LAYOUT, mLayout));
 }
@@ -243,7 +243,7 @@ ComputePipeline::ComputePipeline(Device& device, const ComputePipelineDesc& desc
     info.layout = mLayout;
     adopt(device,
           device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
-                                               nullptr, &mHandle),
+                                               device.allocator(), &mHandle),
           VK_PIPELINE_BIND_POINT_COMPUTE);
 }
 
@@ -274,7 +274,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineDesc& d
     info.layout = mLayout;
     adopt(device,
           device.vk().vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info,
-                                                nullptr, &mHandle),
+                                                device.allocator(), &mHandle),
           VK_PIPELINE_BIND_POINT_GRAPHICS);
 }
 

@@ -68,6 +68,7 @@ void writeCache(const std::filesystem::path& file, const std::vector<char>& data
 }  // namespace
 
 void Device::loadPipelineCache() {
+    if (mIsCacheLent) return;
     std::vector<char> data;
     if (!mPipelineCacheFile.empty()) {
         data = readCache(mPipelineCacheFile, mProperties);
@@ -77,7 +78,7 @@ void Device::loadPipelineCache() {
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
     info.initialDataSize = data.size();
     info.pInitialData = data.data();
-    check(vk().vkCreatePipelineCache(mDevice, &info, nullptr, &mPipelineCache),
+    check(vk().vkCreatePipelineCache(mDevice, &info, allocator(), &mPipelineCache),
           "creating pipeline cache", mPipelineCacheFile.string());
 }
 

@@ -33,7 +33,7 @@ Submitter::Submitter(Device& device, VkQueue queue)
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = device.queueFamily();
     constexpr const char* kDoing = "creating submitter";
-    device.check(vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &mPool), kDoing, "pool");
+    device.check(vk.vkCreateCommandPool(device.handle(), &pool, device.allocator(), &mPool), kDoing, "pool");
     mOwner.add(owned(VK_OBJECT_TYPE_COMMAND_POOL, mPool));
     VkCommandBufferAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -44,7 +44,7 @@ Submitter::Submitter(Device& device, VkQueue queue)
                  "commands");
     VkFenceCreateInfo fence{};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    device.check(vk.vkCreateFence(device.handle(), &fence, nullptr, &mFence), kDoing, "fence");
+    device.check(vk.vkCreateFence(device.handle(), &fence, device.allocator(), &mFence), kDoing, "fence");
     mOwner.add(owned(VK_OBJECT_TYPE_FENCE, mFence));
 }
 

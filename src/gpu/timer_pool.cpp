@@ -15,7 +15,7 @@ TimerPool::TimerPool(Device& device, const std::string& name, std::uint32_t maxS
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = 2 * maxScopes;
     mOwner = ObjectOwner(device, "timers", name);
-    device.check(device.vk().vkCreateQueryPool(device.handle(), &info, nullptr, &mPool),
+    device.check(device.vk().vkCreateQueryPool(device.handle(), &info, device.allocator(), &mPool),
                  "creating timers", name);
     mOwner.add(owned(VK_OBJECT_TYPE_QUERY_POOL, mPool));
     device.setName(VK_OBJECT_TYPE_QUERY_POOL, (std::uint64_t)mPool, name);

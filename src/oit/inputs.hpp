@@ -20,6 +20,7 @@ struct Needs {
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
+    bool hostLayers = false;          ///< a host draws surfaces of its own into the method's targets
     bool glossy = false;              ///< glass that mirrors background and lights
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
     bool oneMedium = false;  ///< one medium and one tint in the whole scene
@@ -40,6 +41,13 @@ struct SurfaceDraw {
     bool isSolid = false;
     const gpu::Image* colorTexture = nullptr;
     const gpu::Image* emissionTexture = nullptr;
+};
+
+/// Rendering that the frame's caller begins and ends, for methods that draw into it directly.
+struct CallersRendering {
+    VkFormat color = VK_FORMAT_UNDEFINED;  ///< undefined: there is none
+    VkFormat depth = VK_FORMAT_UNDEFINED;  ///< attached, but neither tested nor written
+    explicit operator bool() const { return color != VK_FORMAT_UNDEFINED; }
 };
 
 /// Buffers are bound as shaders/common/bindings.glsl and mesh.h say; those that the frame itself
@@ -68,6 +76,7 @@ struct Inputs {
         opaqueT;  ///< R32F, distance of the opaque surface along the ray; 3e38 where there is none
     frame::ImageRef opaqueColor;  ///< RGBA32F, its radiance or the background's
     frame::ImageRef result;       ///< RGBA32F, to be written whole
+    CallersRendering callers;     ///< instead of result: methods unordered and sorted only
 };
 
 }  // namespace brume::oit

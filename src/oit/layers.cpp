@@ -104,7 +104,7 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                      .specialization = constants,
                      .constants = lightingConstants(inputs.needs),
                      .colors = desc.colors,
-                     .depthFormat = desc.depthFormat,
+                     .depthFormat = hasDepth ? desc.depthFormat : desc.idleDepthFormat,
                      .depthTest = hasDepth,
                      .depthWrite = hasDepth});
     };
@@ -184,6 +184,18 @@ void LayerPass::record(gpu::Commands& commands, const frame::PassResources& reso
     recordSolids(commands, resources, inputs, solids, use);
 }
 
+namespace {
+
+gpu::ColorTarget overTarget(const CallersRendering& callers) {
+    gpu::ColorTarget target{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::premultipliedOver()};
+    if (!callers) return target;
+    target.format = callers.color;
+    target.blend.writeMask &= ~VkColorComponentFlags{VK_COLOR_COMPONENT_A_BIT};
+    return target;
+}
+
+}  // namespace
+
 OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs)
     : mName(name),
       mSolids(device, name, inputs),
@@ -191,20 +203,26 @@ OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Input
             {.name = name + ".store",
              .shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
                          spv::oit_unordered_solid_frag},
-             .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::premultipliedOver()}}}) {}
+             .colors = {overTarget(inputs.callers)},
+             .idleDepthFormat = inputs.callers.depth}) {}
 
 void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                          frame::BufferRef order) const {
-    frame.addPass(mName + ".clear")
-        .reads(inputs.opaqueColor, Access::TransferRead)
-        .writes(inputs.result, Access::TransferWrite)
-        .record([inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-            commands.copyImage(resources.image(inputs.opaqueColor), resources.image(inputs.result));
-        });
+    if (!inputs.callers)
+        frame.addPass(mName + ".clear")
+            .reads(inputs.opaqueColor, Access::TransferRead)
+            .writes(inputs.result, Access::TransferWrite)
+            .record([inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+                commands.copyImage(resources.image(inputs.opaqueColor),
+                                   resources.image(inputs.result));
+            });
     const SolidTargets solids = mSolids.declare(frame, inputs);
     frame::PassBuilder& pass = frame.addPass(mName + ".store");
     LayerPass::declareReads(pass, inputs, solids, order);
-    pass.color(inputs.result, gpu::LoadOp::Load);
+    if (inputs.callers)
+        pass.insideCallersRendering();
+    else
+        pass.color(inputs.result, gpu::LoadOp::Load);
     pass.record([this, inputs, solids, order](gpu::Commands& commands,
                                               const frame::PassResources& resources) {
         mPass.record(commands, resources, inputs, solids, {.order = order});

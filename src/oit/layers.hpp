@@ -51,6 +51,7 @@ struct LayerPassDesc {
     std::uint32_t scale = 1;  ///< pixels of the image per edge of a texel of the targets
     bool drawsSolidFaces = false;  ///< surface shaders want the faces of solids as well
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: layers write and test their depth
+    VkFormat idleDepthFormat = VK_FORMAT_UNDEFINED;  ///< set: attached, neither tested nor written
 };
 
 /// How a method uses one drawing of its layers.
@@ -99,7 +100,7 @@ class OverLayers {
     /// `name` of the method's prefix, e.g. "oit.sorted".
     OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs);
 
-    /// Passes "<name>.clear" and "<name>.store". `order`: uint[spheres + boxes] as written by an
+    /// Passes "<name>.clear" and "<name>.store", the latter alone within callers' rendering. `order`: uint[spheres + boxes] as written by an
     /// earlier pass, or empty for the order of submission.
     void declare(frame::FrameBuilder& frame, const Inputs& inputs, frame::BufferRef order) const;
 

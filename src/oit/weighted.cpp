@@ -109,7 +109,7 @@ class Weighted final : public OitMethod {
                         const Targets& low) const;
 
     Settings mSettings;
-    bool mIsColoured, mDiffuses, mRefracts;
+    bool mTakesHostLayers, mIsColoured, mDiffuses, mRefracts;
     Solids mSolids;
     LayerPass mStore, mStoreLow;
     gpu::GraphicsPipeline mResolve;
@@ -117,7 +117,9 @@ class Weighted final : public OitMethod {
 
 Weighted::Weighted(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     : mSettings(settings),
-      mIsColoured(isColoured(inputs.needs) || (inputs.needs.diffusion && settings.diffusion)),
+      mTakesHostLayers(inputs.needs.hostLayers),
+      mIsColoured(isColoured(inputs.needs) || mTakesHostLayers ||
+                  (inputs.needs.diffusion && settings.diffusion)),
       mDiffuses(inputs.needs.diffusion && settings.diffusion),
       mRefracts(inputs.needs.surfaces && settings.refraction),
       mSolids(device, "oit.weighted", inputs) {
@@ -233,6 +235,11 @@ void Weighted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     };
     const Targets full = makeTargets(frame, "", inputs.extent, mRefracts);
     addPass("oit.weighted.store", full, mStore);
+    if (mTakesHostLayers)
+        frame.addPass("oit.weighted.host_layers")
+            .color(full.sum, gpu::LoadOp::Load)
+            .color(full.depth, gpu::LoadOp::Load)
+            .handOver();
     Targets low;
     if (isLow()) {
         const std::uint32_t scale = mSettings.lowResolution;

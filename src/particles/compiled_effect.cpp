@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <shaders/particles/appearance.h>
+#include <shaders/particles/spawn.h>
 #include <core/error.hpp>
 #include <particles/appearance_curves.hpp>
 #include <particles/compiled_effect.hpp>
 #include <particles/effect_check.hpp>
+#include <particles/fields.hpp>
 #include <particles/modules/module.hpp>
 
 #include <algorithm>
@@ -33,28 +35,73 @@ void makeFrames(const scene::Emitter& emitter, shader::EmitterParameters& p) {
     p.directionBitangent = vec3(bitangent);
 }
 
+/// What a share of [0, 1) is as a word of 32 bits.
+std::uint32_t rankOf(double share) {
+    return static_cast<std::uint32_t>(std::min(std::floor(share * 4294967296.0), 4294967295.0));
+}
+
 /// The triangles of a mesh with their shares of its area, at the end of `all`; those without area
 /// are left out.
-void addTriangles(const scene::Emitter& emitter, std::vector<shader::EmitterTriangle>& all,
-                  shader::EmitterParameters& p) {
+void addTriangles(const std::vector<scene::EmitterTriangle>& triangles,
+                  std::vector<shader::EmitterTriangle>& all, shader::EmitterParameters& p) {
     p.firstTriangle = static_cast<std::uint32_t>(all.size());
     double area = 0;
-    for (const scene::EmitterTriangle& t : *emitter.triangles)
+    for (const scene::EmitterTriangle& t : triangles)
         area += glm::length(glm::cross(t.b - t.a, t.c - t.a));
     double before = 0;
-    for (const scene::EmitterTriangle& t : *emitter.triangles) {
+    for (const scene::EmitterTriangle& t : triangles) {
         const dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
         const double size = glm::length(normal);
         if (!(size > 1e-12 * area)) continue;
-        const double rank = std::min(std::floor(before / area * 4294967296.0), 4294967295.0);
         all.push_back({vec3(t.a), vec3(t.b - t.a), vec3(t.c - t.a), vec3(normal / size),
-                       static_cast<std::uint32_t>(rank)});
+                       rankOf(before / area)});
         before += size;
     }
     p.triangleCount = static_cast<std::uint32_t>(all.size()) - p.firstTriangle;
     if (p.triangleCount == 0)
         throw inputError("setting up an effect", "",
                          "the mesh of an emitter has no area, triangles with area allowed");
+}
+
+/// The voxels of a density with their shares of its sum, at the end of `all`.
+void addVoxels(const scene::FieldPlacement& placement, const scene::FieldValues& field,
+               std::vector<shader::EmitterTriangle>& all, shader::EmitterParameters& p) {
+    p.firstTriangle = static_cast<std::uint32_t>(all.size());
+    const dmat4 place = effectFromIndex(placement, field);
+    double sum = 0;
+    for (const float value : field.values) sum += std::max(value, 0.0f);
+    double before = 0;
+    std::size_t i = 0;
+    for (int z = 0; z < field.size.z; ++z)
+        for (int y = 0; y < field.size.y; ++y)
+            for (int x = 0; x < field.size.x; ++x, ++i) {
+                const double value = field.values[i];
+                if (!(value > 1e-12 * sum)) continue;
+                const dvec3 corner = transformPoint(place, dvec3(field.lo + ivec3(x, y, z)));
+                all.push_back({vec3(corner), vec3(dvec3(place[0])), vec3(dvec3(place[1])),
+                               vec3(dvec3(place[2])), rankOf(before / sum)});
+                before += value;
+            }
+    p.triangleCount = static_cast<std::uint32_t>(all.size()) - p.firstTriangle;
+    if (p.triangleCount == 0)
+        throw inputError("setting up an effect", placement.where,
+                         "the grid has no positive values, a density allowed");
+}
+
+/// Births in a density, or on the surface of a level set.
+void addVolumeShape(const scene::Effect& effect, const scene::FieldPlacement& placement,
+                    std::vector<shader::EmitterTriangle>& all, shader::EmitterParameters& p) {
+    const scene::FieldValues& field = findField(effect, placement, 1);
+    if (!field.isLevelSet) {
+        addVoxels(placement, field, all, p);
+        return;
+    }
+    p.shape = shader::kShapeMesh;
+    const dmat4 place = effectFromFile(placement);
+    std::vector<scene::EmitterTriangle> triangles = field.surface;
+    for (scene::EmitterTriangle& t : triangles)
+        t = {transformPoint(place, t.a), transformPoint(place, t.b), transformPoint(place, t.c)};
+    addTriangles(triangles, all, p);
 }
 
 shader::EmitterParameters emitterParameters(const scene::Emitter& emitter, double tickRate) {
@@ -69,6 +116,7 @@ shader::EmitterParameters emitterParameters(const scene::Emitter& emitter, doubl
     if (emitter.radius > 0)
         p.innerRadius2 = static_cast<float>(std::pow(emitter.innerRadius / emitter.radius, 2));
     p.isSurface = emitter.fromSurface;
+    p.birthField = shader::kNoField;
     p.velocityMode = static_cast<std::uint32_t>(emitter.velocity);
     p.coneHeight = static_cast<float>(2 * halfSpread * halfSpread);  // 1 - cos(spread)
     p.speedLow = static_cast<float>(emitter.speed.x);
@@ -137,6 +185,20 @@ shader::SubEmitter subEmitterParameters(const scene::SubEmitter& sub, std::uint3
     return p;
 }
 
+/// The grid that a moving emitter's births take their velocity from.
+void addBirthField(const scene::Effect& effect, const scene::FieldPlacement& placement,
+                   FieldPacker& packer, shader::EffectParameters& p,
+                   shader::EmitterParameters& emitter) {
+    if (p.birthFieldCount == shader::kMaxModulesPerType)
+        throw inputError("setting up an effect", placement.where,
+                         fmt::format("one 'velocityField' too many, at most {} allowed",
+                                     shader::kMaxModulesPerType));
+    emitter.birthField = p.birthFieldCount;
+    shader::VelocityField& field = p.birthField[p.birthFieldCount++];
+    field.grid = packer.add(placement, findField(effect, placement, 3), 0);
+    field.strength = static_cast<float>(placement.strength);
+}
+
 CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
     checkEffect(effect, isChild);
     CompiledEffect compiled{
@@ -146,8 +208,11 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
         .schedule = SpawnSchedule(effect),
         .aliveBound = AliveBound(effect.capacity, longestLifetime(effect) * effect.tickRate)};
     shader::EffectParameters& p = compiled.parameters;
+    FieldPacker packer(compiled.fieldValues);
     ModuleSums sums;
     sums.parameters = &p;
+    sums.effect = &effect;
+    sums.fields = &packer;
     addModules(effect.modules, sums);
     p.step = stepParameters(sums, effect.tickRate);
     p.appearance = appearanceParameters(effect);
@@ -155,9 +220,15 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
         compiled.noiseDrifts.push_back({-sums.noiseDrifts[i] * double{p.curlNoise[i].frequency}});
     for (const scene::Emitter& emitter : effect.emitters) {
         compiled.emitters.push_back(emitterParameters(emitter, effect.tickRate));
+        shader::EmitterParameters& last = compiled.emitters.back();
         if (emitter.shape == scene::EmitterShape::Mesh)
-            addTriangles(emitter, compiled.triangles, compiled.emitters.back());
+            addTriangles(*emitter.triangles, compiled.triangles, last);
+        if (emitter.shape == scene::EmitterShape::Volume)
+            addVolumeShape(effect, *emitter.volume, compiled.triangles, last);
+        if (emitter.velocityField) addBirthField(effect, *emitter.velocityField, packer, p, last);
     }
+    compiled.hasStrands =
+        effect.surface && effect.surface->type == scene::SurfaceType::Ribbon;
     for (const scene::SubEmitter& sub : effect.subEmitters) {
         p.subEmitters[compiled.subEmitterCount] =
             subEmitterParameters(sub, compiled.subEmitterCount, effect.tickRate);
@@ -217,6 +288,22 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
     }
     p.noiseSeed = shader::pcg3d(shader::uvec3(p.random.seedLow, p.random.seedHigh, 0)).x;
     return p;
+}
+
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick) {
+    const std::uint64_t window = effect.aliveBound.windowTicks();
+    // The indices of children count all that were asked for since tick 0.
+    if (effect.subEmitterCount > 0 || window == 0 || tick <= 2 * window) return 0;
+    // What was born within a window has met nobody but what was born in the window before that.
+    const std::uint64_t start = tick - window;
+    std::uint64_t births = 0;
+    for (std::uint64_t t = start - window; t < tick; ++t) {
+        const TickBirths now = effect.schedule.at(t);
+        births += now.count;
+        if (t >= start) births -= effect.schedule.at(t - window).count;
+        if (now.overflow > 0 || births > effect.capacity) return 0;
+    }
+    return start;
 }
 
 shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick) {

@@ -30,6 +30,8 @@ struct CompiledEffect {
     shader::EffectParameters parameters{};
     std::vector<shader::EmitterParameters> emitters;
     std::vector<shader::EmitterTriangle> triangles;
+    std::vector<float> fieldValues;  ///< of all its grids, see shader::FieldGrid
+    bool hasStrands = false;         ///< each particle's strand is kept, for ribbons
     std::vector<NoiseDrift> noiseDrifts;
     SpawnSchedule schedule;
     AliveBound aliveBound;  ///< at tick 0
@@ -54,6 +56,11 @@ std::vector<const scene::Effect*> listPopulations(const scene::Effect& effect);
 /// ones.
 shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t instance,
                                               std::uint32_t population);
+
+/// The tick from which a simulation that starts with nothing alive arrives at `tick` with the same
+/// particles, bit by bit, as one that starts at tick 0: the longest lifetime before it. 0 if that is
+/// not certain: the effect has sub-emitters, very long lifetimes, or may have run out of capacity.
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick);
 
 /// What the modules know about a tick, the same for all instances.
 shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick);

@@ -40,7 +40,7 @@ void CpuSimulation::follow(Population& population, const shader::TickFields& fie
                            bool survives, Particle& particle) {
     const CompiledEffect& effect = population.effect;
     const shader::ParticleTick event = shader::followTick(
-        effect.parameters, effect.parameters.step, fields, population.instance.noiseSeed,
+        effect.parameters, effect.fieldValues.data(), effect.parameters.step, fields, population.instance.noiseSeed,
         static_cast<std::uint32_t>(mTick), isBirth, survives, particle);
     for (std::uint32_t k = 0; k < effect.subEmitterCount; ++k) {
         shader::BirthBatch batch = shader::childrenOf(effect.parameters.subEmitters[k],
@@ -62,16 +62,20 @@ void CpuSimulation::follow(Population& population, const shader::TickFields& fie
 void CpuSimulation::stepSurvivors(Population& population, const shader::TickFields& fields) {
     const auto tick = static_cast<std::uint32_t>(mTick);
     std::vector<Particle>& particles = population.particles;
+    const bool hasStrands = population.effect.hasStrands;
     std::size_t kept = 0;
-    for (const Particle& old : particles) {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const Particle& old = particles[i];
         const bool survives = shader::isAlive(old.life, tick);
         if (!survives && population.effect.subEmitterCount == 0) continue;
         Particle particle = old;
         follow(population, fields, false, survives, particle);
         if (!survives) continue;
         population.counters.killed += particle.life.lifetimeTicks == shader::kNotFinite;
+        if (hasStrands) population.strands[kept] = population.strands[i];
         particles[kept++] = particle;
     }
+    if (hasStrands) population.strands.resize(kept);
     population.counters.died += static_cast<std::uint32_t>(particles.size() - kept);
     particles.resize(kept);
 }
@@ -86,7 +90,8 @@ void CpuSimulation::appendBirths(Population& population, const shader::TickField
     for (const shader::BirthBatch& batch : births.batches)
         for (std::uint32_t i = 0; i < batch.count; ++i) {
             Particle particle =
-                shader::spawnFromBatch(effect.triangles.data(), population.instance.random,
+                shader::spawnFromBatch(effect.parameters, effect.fieldValues.data(),
+                                       effect.triangles.data(), population.instance.random,
                                        effect.emitters[batch.emitter], batch, i, tick);
             const bool survives = shader::isAlive(particle.life, tick);
             const bool isFull = population.particles.size() == effect.capacity;
@@ -100,6 +105,7 @@ void CpuSimulation::appendBirths(Population& population, const shader::TickField
             } else {
                 counters.killed += particle.life.lifetimeTicks == shader::kNotFinite;
                 population.particles.push_back(particle);
+                if (effect.hasStrands) population.strands.push_back(batch.strand);
             }
         }
 }
@@ -108,15 +114,27 @@ void CpuSimulation::restart() {
     mTick = 0;
     for (Population& population : mPopulations) {
         population.particles.clear();
+        population.strands.clear();
         population.counters = {};
         population.asked = {};
     }
+}
+
+void CpuSimulation::jump(std::uint64_t target) {
+    const std::uint64_t tick = jumpTick(effect(), target);
+    if (tick <= mTick) return;
+    restart();
+    mTick = tick;
+    Counters& counters = mPopulations[0].counters;
+    counters.born = static_cast<std::uint32_t>(effect().schedule.birthsBefore(tick));
+    counters.died = counters.born;
 }
 
 void CpuSimulation::advanceTo(double seconds) {
     const double tickRate = effect().tickRate;
     const std::uint64_t target = ticksAt(seconds, tickRate);
     if (target < mTick) restart();
+    jump(target);
     step(target - mTick);
     mSinceTick = tickFractionAt(seconds, tickRate);
 }
@@ -128,6 +146,7 @@ SimulationState CpuSimulation::state() const {
     state.tick = mTick;
     for (const Population& population : mPopulations) {
         state.populations.push_back(population.particles);
+        state.strands.push_back(population.strands);
         state.counters.push_back(population.counters);
     }
     return state;
@@ -139,6 +158,7 @@ void CpuSimulation::restore(const SimulationState& state) {
     mSinceTick = 0;
     for (std::size_t i = 0; i < mPopulations.size(); ++i) {
         mPopulations[i].particles = state.populations[i];
+        mPopulations[i].strands = state.strands[i];
         mPopulations[i].counters = state.counters[i];
         mPopulations[i].asked = {};
     }

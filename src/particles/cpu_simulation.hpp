@@ -16,14 +16,20 @@ class CpuSimulation {
 
     void step(std::uint64_t ticks);
 
-    /// To the last tick that is over at `seconds`; starts anew if that lies in the past.
+    /// To the last tick that is over at `seconds`; starts anew if that lies in the past. Leaves out
+    /// the ticks before jumpTick(); then the counters take it that nothing was rejected in them.
     void advanceTo(double seconds);
 
     std::uint64_t tick() const { return mTick; }  ///< ticks done
+    double sinceTick() const { return mSinceTick; }  ///< ticks beyond them, [0, 1)
     std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
     /// In order of birth.
     const std::vector<Particle>& particles(std::uint32_t population = 0) const {
         return mPopulations[population].particles;
+    }
+    /// Parallel to particles(); empty if the effect shows no ribbons.
+    const std::vector<std::uint32_t>& strands(std::uint32_t population = 0) const {
+        return mPopulations[population].strands;
     }
     const Counters& counters(std::uint32_t population = 0) const {
         return mPopulations[population].counters;
@@ -47,6 +53,7 @@ class CpuSimulation {
         CompiledEffect effect;
         shader::InstanceParameters instance{};
         std::vector<Particle> particles;
+        std::vector<std::uint32_t> strands;  // of the particles, if the effect keeps them
         Counters counters{};
         TickBirths asked{};  // of a child, by its parent in the current tick
     };
@@ -59,6 +66,8 @@ class CpuSimulation {
     void follow(Population& population, const shader::TickFields& fields, bool isBirth,
                 bool survives, Particle& particle);
     void restart();
+    /// Leaves out ticks that nothing alive at `target` has seen.
+    void jump(std::uint64_t target);
 
     std::vector<Population> mPopulations;
     std::uint64_t mTick = 0;

@@ -12,13 +12,14 @@
 namespace brume::particles {
 
 std::vector<std::uint32_t> GpuPopulation::specialization() const {
-    std::vector<std::uint32_t> values(33, 0);
+    std::vector<std::uint32_t> values(34, 0);
     values[0] = mWorkgroupSize;
 #define BRUME_SPECIALIZE(Type, member, constant) \
     values[constant] = mEffect.parameters.member##Count;
     BRUME_MODULE_TYPES(BRUME_SPECIALIZE)
 #undef BRUME_SPECIALIZE
     values[32] = mEffect.subEmitterCount;
+    values[33] = mEffect.hasStrands;
     return values;
 }
 
@@ -37,7 +38,8 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
     constexpr std::size_t kTickBytes = sizeof(TickPush), kChildBytes = sizeof(ChildPush);
     mCount = make("particles.count", spv::particles_count_comp,
                   {kBindingEffect, kBindingLives, kBindingChunks, kBindingTotals, kBindingEmitters,
-                   kBindingBatches, kBindingTicks, kBindingInstances, kBindingTriangles},
+                   kBindingBatches, kBindingTicks, kBindingInstances, kBindingTriangles,
+                   kBindingFieldValues},
                   kTickBytes);
     mOffsets = make("particles.offsets", spv::particles_offsets_comp,
                     {kBindingChunks, kBindingGroups, kBindingTicks}, kTickBytes);
@@ -50,11 +52,13 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
                   kBindingChunks,        kBindingGroups,        kBindingTotals,
                   kBindingEmitters,      kBindingBatches,       kBindingTicks,
                   kBindingInstances,     kBindingTriangles,     kBindingRecords,
-                  kBindingRecordCounts},
+                  kBindingRecordCounts,  kBindingFieldValues,   kBindingStrands,
+                  kBindingNewStrands},
                  kTickBytes);
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
                        {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,
-                        kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres},
+                        kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres,
+                        kBindingFieldValues},
                        sizeof(AppearancePush));
     if (mEffect.subEmitterCount == 0) return;
     mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,

@@ -22,6 +22,10 @@ std::uint32_t loopsPerParticle(const CompiledEffect& effect) {
     std::uint32_t loops = 48;  // births: random numbers, search of batch and triangle
     for (std::uint32_t i = 0; i < p.curlNoiseCount; ++i) loops += 2 + p.curlNoise[i].octaves;
     loops += 16 * (p.attractorCount + p.vortexCount + 2 * p.quadraticDragCount);
+    // A sample of a grid's component takes two, those of a level set's gradient six times as many.
+    loops += 20 * p.velocityFieldCount + 4 * p.buoyancyCount + 10 * p.birthFieldCount;
+    loops += 5 * p.levelSetColliderCount *
+             (3 * (shader::kMaxLevelSetSteps + shader::kLevelSetBisections) + 80);
     const std::uint32_t colliders = p.planeColliderCount + p.sphereColliderCount +
                                     p.boxColliderCount + p.capsuleColliderCount;
     loops += 5 * 30 * colliders + (colliders ? 60 : 0);
@@ -118,8 +122,8 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
                         "allowed on this device",
                         mEffect.capacity, mInstanceCount, largest,
                         device.limits().maxStorageBufferRange));
-    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[4]);
-    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[4]);
+    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[5]);
+    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[5]);
     mTicks = makeBuffer(device, "particles.ticks", kTicksPerPart * sizeof(shader::Tick));
     mChunks = makeBuffer(device, "particles.chunks", chunks * 4);
     mGroups = makeBuffer(device, "particles.groups", groups * 4);
@@ -135,16 +139,20 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
         makeFilledBuffer<shader::EmitterParameters>(device, "particles.emitters", mEffect.emitters);
     mTriangles =
         makeFilledBuffer<shader::EmitterTriangle>(device, "particles.triangles", mEffect.triangles);
+    mFieldValues = makeFilledBuffer<float>(device, "particles.fields", mEffect.fieldValues);
 }
 
-std::array<std::uint64_t, 5> GpuPopulation::stateOffsets() const {
-    constexpr std::array<std::uint64_t, 4> kSizes = {
-        sizeof(vec3), sizeof(vec3), sizeof(shader::ParticleLife), sizeof(std::uint32_t)};
-    std::array<std::uint64_t, 5> offsets{};
-    // Bindings begin at multiples of 256 bytes.
+std::array<std::uint64_t, 6> GpuPopulation::stateOffsets() const {
+    constexpr std::array<std::uint64_t, 5> kSizes = {sizeof(vec3), sizeof(vec3),
+                                                     sizeof(shader::ParticleLife),
+                                                     sizeof(std::uint32_t), sizeof(std::uint32_t)};
+    std::array<std::uint64_t, 6> offsets{};
+    // Bindings begin at multiples of 256 bytes, and none is empty.
     const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
-    for (std::size_t i = 0; i < kSizes.size(); ++i)
-        offsets[i + 1] = offsets[i] + (kSizes[i] * all + 255) / 256 * 256;
+    for (std::size_t i = 0; i < kSizes.size(); ++i) {
+        const std::uint64_t count = i + 1 < kSizes.size() || mEffect.hasStrands ? all : 1;
+        offsets[i + 1] = offsets[i] + (kSizes[i] * count + 255) / 256 * 256;
+    }
     return offsets;
 }
 
@@ -164,6 +172,7 @@ const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
         case shader::kBindingTicks: return &mTicks;
         case shader::kBindingInstances: return &mInstances;
         case shader::kBindingTriangles: return &mTriangles;
+        case shader::kBindingFieldValues: return &mFieldValues;
         case shader::kBindingRecords: return &mRecords;
         case shader::kBindingRecordCounts: return &mRecordCounts;
         default: return nullptr;
@@ -181,14 +190,18 @@ void GpuPopulation::bindAll(gpu::Commands& commands, const gpu::ComputePipeline&
         else if (number >= shader::kBindingNewPositions &&
                  number <= shader::kBindingNewBirthIndices)
             commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewPositions));
+        else if (number == shader::kBindingStrands)
+            commands.bind(number, stateRange(mCurrent, 4));
+        else if (number == shader::kBindingNewStrands)
+            commands.bind(number, stateRange(1 - mCurrent, 4));
     }
 }
 
 std::uint64_t GpuPopulation::bytes() const {
     std::uint64_t sum = 0;
     for (const gpu::Buffer* buffer :
-         {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles, &mBatches,
-          &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts})
+         {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles,
+          &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts})
         sum += buffer->bytes();
     return sum;
 }
@@ -211,14 +224,16 @@ void GpuPopulation::restart(std::uint64_t tick) {
         mAliveBound.addTick(mEffect.schedule.at(t).count);
 }
 
-TickPart GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
-    TickPart part;
+const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
+    TickPart& part = mPart;  // keeps its memory: a steady frame allocates nothing
+    part.ticks.clear();
+    part.batches.clear();
     maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
     while (part.ticks.size() < maxTicks &&
            part.batches.size() + mEffect.schedule.maxBatchesPerTick() <= mBatchCapacity) {
         const std::uint64_t tick = firstTick + part.ticks.size();
-        const TickBirths births =
-            mEffect.isChild() ? TickBirths{} : mEffect.schedule.at(tick);
+        if (!mEffect.isChild()) mEffect.schedule.at(tick, mBirths);
+        const TickBirths& births = mBirths;
         part.ticks.push_back(
             makeTick(tick, births, static_cast<std::uint32_t>(part.batches.size())));
         part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());
@@ -251,7 +266,15 @@ shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& birt
     return tick;
 }
 
-void GpuPopulation::recordClear(gpu::Commands& commands) const { commands.fillBuffer(mTotals, 0); }
+void GpuPopulation::recordClear(gpu::Commands& commands, std::uint64_t tick) const {
+    commands.fillBuffer(mTotals, 0);
+    if (tick == 0) return;
+    shader::TickTotals totals{};
+    totals.counters.born = static_cast<std::uint32_t>(mEffect.schedule.birthsBefore(tick));
+    totals.counters.died = totals.counters.born;
+    commands.computeTransferBarrier();
+    updateArray(commands, mTotals, std::vector(mInstanceCount, totals));
+}
 
 void GpuPopulation::recordUpload(gpu::Commands& commands, const TickPart& part) const {
     updateArray(commands, mTicks, part.ticks);
@@ -304,8 +327,9 @@ void GpuPopulation::recordAppearance(gpu::Commands& commands, const gpu::Buffer&
 }
 
 std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
-                                                   std::uint32_t instance,
-                                                   Counters& counters) const {
+                                                   std::uint32_t instance, Counters& counters,
+                                                   std::vector<std::uint32_t>& strands) const {
+    strands.clear();
     submitter.read(mTotals, &counters, sizeof counters, instance * sizeof(shader::TickTotals));
     std::vector<Particle> particles(counters.alive);
     if (particles.empty()) return particles;
@@ -319,13 +343,16 @@ std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
     const auto velocities = read(1, vec3());
     const auto lives = read(2, shader::ParticleLife());
     const auto indices = read(3, std::uint32_t());
+    if (mEffect.hasStrands) strands = read(4, std::uint32_t());
     for (std::size_t i = 0; i < particles.size(); ++i)
         particles[i] = {positions[i], velocities[i], lives[i], indices[i]};
     return particles;
 }
 
 void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t instance,
-                                   std::span<const Particle> particles, const Counters& counters) {
+                                   std::span<const Particle> particles,
+                                   const std::vector<std::uint32_t>& strands,
+                                   const Counters& counters) {
     BRUME_ASSERT_LE(particles.size(), mEffect.capacity);
     const auto offsets = stateOffsets();
     const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
@@ -350,6 +377,7 @@ void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t inst
         write(1, velocities);
         write(2, lives);
         write(3, indices);
+        if (mEffect.hasStrands) write(4, strands);
         shader::TickTotals totals{};
         totals.counters = counters;
         totals.slots = slotCount();

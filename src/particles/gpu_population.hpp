@@ -45,9 +45,12 @@ class GpuPopulation {
     /// Starts anew at `tick` with nothing alive; the bound on what is follows the schedule.
     void restart(std::uint64_t tick);
     /// The next ticks, at most `maxTicks`, as many as are uploaded at once.
-    TickPart schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks);
+    const TickPart& schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks);
+    /// What schedulePart() has returned last.
+    const TickPart& part() const { return mPart; }
 
-    void recordClear(gpu::Commands& commands) const;
+    /// Nothing is alive at `tick`, where restart() went.
+    void recordClear(gpu::Commands& commands, std::uint64_t tick) const;
     void recordUpload(gpu::Commands& commands, const TickPart& part) const;
     void recordTick(gpu::Commands& commands, const shader::Tick& tick, std::uint32_t slot);
     /// Makes what the tick's step has listed the births of the child's tick.
@@ -56,19 +59,22 @@ class GpuPopulation {
     void recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
                           const shader::AppearancePush& push) const;
 
+    /// Also the strands, if the effect keeps them.
     std::vector<Particle> readParticles(gpu::Submitter& submitter, std::uint32_t instance,
-                                        Counters& counters) const;
+                                        Counters& counters,
+                                        std::vector<std::uint32_t>& strands) const;
     /// Replaces the state of an instance; at most the capacity.
     void writeParticles(gpu::Submitter& submitter, std::uint32_t instance,
-                        std::span<const Particle> particles, const Counters& counters);
+                        std::span<const Particle> particles,
+                        const std::vector<std::uint32_t>& strands, const Counters& counters);
 
   private:
     void makeBuffers(gpu::Device& device);
     void makePipelines(gpu::Device& device);
     std::vector<std::uint32_t> specialization() const;
     shader::Tick makeTick(std::uint64_t tick, const TickBirths& births, std::uint32_t firstBatch);
-    /// Where the arrays of a state begin: positions, velocities, lives, birth indices, end.
-    std::array<std::uint64_t, 5> stateOffsets() const;
+    /// Where the arrays of a state begin: positions, velocities, lives, birth indices, strands, end.
+    std::array<std::uint64_t, 6> stateOffsets() const;
     gpu::BufferRange stateRange(std::uint32_t state, std::uint32_t field) const;
     const gpu::Buffer* bufferOf(std::uint32_t binding) const;
     void bindAll(gpu::Commands& commands, const gpu::ComputePipeline& pipeline) const;
@@ -78,6 +84,8 @@ class GpuPopulation {
     std::uint32_t batchStride() const { return mBatchStride; }
 
     CompiledEffect mEffect;
+    TickPart mPart;
+    TickBirths mBirths;
     AliveBound mAliveBound;
     std::uint32_t mInstanceCount;
     std::uint32_t mWorkgroupSize;
@@ -87,7 +95,7 @@ class GpuPopulation {
     std::uint32_t mCurrent = 0;      // which of the states is the newest
 
     gpu::Buffer mStates[2];
-    gpu::Buffer mParameters, mEmitters, mInstances, mTriangles;
+    gpu::Buffer mParameters, mEmitters, mInstances, mTriangles, mFieldValues;
     gpu::Buffer mBatches, mTicks;
     gpu::Buffer mChunks, mGroups, mTotals;
     gpu::Buffer mRecords, mRecordCounts;

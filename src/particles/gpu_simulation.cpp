@@ -22,16 +22,18 @@ GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect, s
                              std::uint32_t instance, const GpuSimulationOptions& options)
     : GpuSimulation(device, effect, std::array{EffectInstance{seed, instance}}, options) {}
 
-void GpuSimulation::restart() {
-    mTick = 0;
-    for (const auto& population : mPopulations) population->restart(0);
+void GpuSimulation::restart(std::uint64_t tick) {
+    mTick = tick;
+    for (const auto& population : mPopulations) population->restart(tick);
     mMustClear = true;
 }
 
 void GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds) {
     const double tickRate = effect().tickRate;
     const std::uint64_t target = ticksAt(seconds, tickRate);
-    if (target < mTick) restart();
+    if (target < mTick) restart(0);
+    const std::uint64_t jump = jumpTick(effect(), target);
+    if (jump > mTick) restart(jump);
     recordTicks(commands, target - mTick);
     mSinceTick = tickFractionAt(seconds, tickRate);
 }
@@ -43,21 +45,20 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     // Whatever read the buffers below before is done with them.
     commands.computeTransferBarrier();
     if (mMustClear)
-        for (const auto& population : mPopulations) population->recordClear(commands);
+        for (const auto& population : mPopulations) population->recordClear(commands, mTick);
     mMustClear = false;
     for (const std::uint64_t end = mTick + ticks; mTick < end;) {
         // Children follow their root tick by tick; only that knows how many fit.
-        std::vector<TickPart> parts;
         std::uint64_t most = end - mTick;
         for (const auto& population : mPopulations) {
-            parts.push_back(population->schedulePart(mTick, most));
-            most = parts[0].ticks.size();
-            population->recordUpload(commands, parts.back());
+            const TickPart& part = population->schedulePart(mTick, most);
+            if (population == mPopulations.front()) most = part.ticks.size();
+            population->recordUpload(commands, part);
         }
         commands.computeTransferBarrier();
         for (std::uint32_t slot = 0; slot < most; ++slot)
             for (std::size_t i = 0; i < mPopulations.size(); ++i) {
-                const shader::Tick& tick = parts[i].ticks[slot];
+                const shader::Tick& tick = mPopulations[i]->part().ticks[slot];
                 mPopulations[i]->recordTick(commands, tick, slot);
                 for (const std::uint32_t child : mPopulations[i]->effect().children)
                     mPopulations[i]->recordChildren(commands, tick, slot, *mPopulations[child]);
@@ -96,6 +97,12 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     commands.endLabel();
 }
 
+std::vector<CompiledEffect> GpuSimulation::effects() const {
+    std::vector<CompiledEffect> effects;
+    for (const auto& population : mPopulations) effects.push_back(population->effect());
+    return effects;
+}
+
 std::uint64_t GpuSimulation::bytes() const {
     std::uint64_t sum = 0;
     for (const auto& population : mPopulations) sum += population->bytes();
@@ -109,7 +116,10 @@ SimulationState GpuSimulation::readState(gpu::Submitter& submitter, std::uint32_
     for (const auto& population : mPopulations) {
         Counters counters{};
         std::vector<Particle> particles;
-        if (!mMustClear) particles = population->readParticles(submitter, instance, counters);
+        std::vector<std::uint32_t> strands;
+        if (!mMustClear)
+            particles = population->readParticles(submitter, instance, counters, strands);
+        snapshot.strands.push_back(std::move(strands));
         snapshot.populations.push_back(std::move(particles));
         snapshot.counters.push_back(counters);
     }
@@ -125,7 +135,7 @@ void GpuSimulation::writeState(gpu::Submitter& submitter, std::span<const Simula
         for (std::uint32_t i = 0; i < states.size(); ++i) {
             BRUME_ASSERT_EQ(states[i].tick, mTick);
             mPopulations[p]->writeParticles(submitter, i, states[i].populations[p],
-                                            states[i].counters[p]);
+                                            states[i].strands[p], states[i].counters[p]);
         }
     }
     mMustClear = false;

@@ -27,7 +27,8 @@ class GpuSimulation {
 
     void recordTicks(gpu::Commands& commands, std::uint64_t ticks);
 
-    /// To the last tick that is over at `seconds`; starts anew if that lies in the past.
+    /// To the last tick that is over at `seconds`; starts anew if that lies in the past. Leaves out
+    /// the ticks before jumpTick(); then the counters take it that nothing was rejected in them.
     void recordAdvanceTo(gpu::Commands& commands, double seconds);
 
     std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
@@ -59,6 +60,8 @@ class GpuSimulation {
     const CompiledEffect& effect(std::uint32_t population = 0) const {
         return mPopulations[population]->effect();
     }
+    /// Of all populations.
+    std::vector<CompiledEffect> effects() const;
     std::uint64_t bytes() const;  ///< of buffers
 
     /// The state after the recorded ticks, for tests, hashes, checkpoints and the reference.
@@ -69,7 +72,7 @@ class GpuSimulation {
     void writeState(gpu::Submitter& submitter, std::span<const SimulationState> states);
 
   private:
-    void restart();
+    void restart(std::uint64_t tick);
 
     std::vector<std::unique_ptr<GpuPopulation>> mPopulations;
     std::uint64_t mTick = 0;

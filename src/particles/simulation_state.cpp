@@ -48,6 +48,7 @@ std::uint64_t SimulationState::hash() const {
     std::uint64_t hash = kHashStart;
     for (const std::vector<Particle>& particles : populations)
         hash = hashParticles(particles, tick, hash);
+    for (const std::vector<std::uint32_t>& population : strands) hash = hashArray(hash, population);
     return hash;
 }
 
@@ -59,6 +60,8 @@ std::uint64_t fingerprintOf(const std::vector<CompiledEffect>& populations) {
                          offsetof(shader::EffectParameters, appearance));
         hash = hashArray(hash, effect.emitters);
         hash = hashArray(hash, effect.triangles);
+        hash = hashArray(hash, effect.fieldValues);
+        hash = hashBytes(hash, &effect.hasStrands, sizeof effect.hasStrands);
         hash = hashArray(hash, effect.noiseDrifts);
         hash = hashBytes(hash, &effect.capacity, sizeof effect.capacity);
         hash = hashBytes(hash, &effect.tickRate, sizeof effect.tickRate);
@@ -86,6 +89,7 @@ void writeCheckpoint(const std::filesystem::path& file, const CheckpointKey& key
         for (std::size_t i = 0; i < state.populations.size(); ++i) {
             write(&state.counters[i], sizeof(Counters));
             write(state.populations[i].data(), state.populations[i].size() * sizeof(Particle));
+            write(state.strands[i].data(), state.strands[i].size() * sizeof(std::uint32_t));
         }
         const std::uint64_t hash = state.hash();
         write(&hash, sizeof hash);
@@ -120,6 +124,9 @@ SimulationState readCheckpoint(const std::filesystem::path& file, const Checkpoi
                                      effect.capacity));
         std::vector<Particle> particles(counters.alive);
         readInto(stream, file, particles.data(), particles.size());
+        std::vector<std::uint32_t> strands(effect.hasStrands ? counters.alive : 0);
+        readInto(stream, file, strands.data(), strands.size());
+        state.strands.push_back(std::move(strands));
         state.counters.push_back(counters);
         state.populations.push_back(std::move(particles));
     }

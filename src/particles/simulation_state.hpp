@@ -10,6 +10,9 @@ namespace brume::particles {
 struct SimulationState {
     std::uint64_t tick = 0;                          ///< ticks done
     std::vector<std::vector<Particle>> populations;  ///< each in order of birth
+    /// By population, parallel to its particles: which particles a ribbon connects. Empty where the
+    /// effect shows none.
+    std::vector<std::vector<std::uint32_t>> strands;
     std::vector<Counters> counters;                  ///< by population
     std::uint64_t hash() const;                      ///< of everything but the counters
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace brume::particles {
 namespace {
@@ -106,17 +107,26 @@ std::uint64_t SpawnSchedule::birthsBefore(std::uint64_t tick) const {
 
 TickBirths SpawnSchedule::at(std::uint64_t tick) const {
     TickBirths births;
+    at(tick, births);
+    return births;
+}
+
+void SpawnSchedule::at(std::uint64_t tick, TickBirths& births) const {
+    births.batches.clear();
+    births.count = births.overflow = 0;
     std::uint64_t index = birthsBefore(tick);
     for (std::uint32_t i = 0; i < mEmitters.size(); ++i) {
         const Emitter& emitter = mEmitters[i];
-        std::vector<shader::BirthBatch> batches;
-        addBursts(emitter, tick, batches);
-        addRate(emitter, tick, batches);
-        if (batches.empty()) continue;
+        const std::size_t first = births.batches.size();
+        addBursts(emitter, tick, births.batches);
+        addRate(emitter, tick, births.batches);
+        if (births.batches.size() == first) continue;
         const dvec3 end = pathAt(emitter, tick + 1);
         const dvec3 motion = end - pathAt(emitter, tick);
-        for (shader::BirthBatch& batch : batches) {
+        for (std::size_t b = first; b < births.batches.size(); ++b) {
+            shader::BirthBatch& batch = births.batches[b];
             batch.emitter = i;
+            batch.strand = i;
             batch.firstBirthIndex = static_cast<std::uint32_t>(index);
             index += batch.count;
             const std::uint32_t kept = std::min(batch.count, mCapacity - births.count);
@@ -126,10 +136,9 @@ TickBirths SpawnSchedule::at(std::uint64_t tick) const {
             batch.offset = vec3(end);
             batch.motion = vec3(motion);
             births.count += kept;
-            if (kept > 0) births.batches.push_back(batch);
         }
     }
-    return births;
+    std::erase_if(births.batches, [](const auto& batch) { return batch.count == 0; });
 }
 
 void SpawnSchedule::addBursts(const Emitter& emitter, std::uint64_t tick,
@@ -193,16 +202,14 @@ AliveBound::AliveBound(std::uint32_t capacity, double longestLifetimeTicks)
     constexpr double kLongestWindow = 1e5;  // keeps the memory small; chosen by us
     if (longestLifetimeTicks < kLongestWindow)
         mWindow = static_cast<std::size_t>(std::ceil(longestLifetimeTicks)) + 2;
+    mRecent.resize(mWindow);
 }
 
 void AliveBound::addTick(std::uint32_t births) {
     mSum += births;
     if (mWindow == 0) return;
-    mRecent.push_back(births);
-    if (mRecent.size() > mWindow) {
-        mSum -= mRecent.front();
-        mRecent.pop_front();
-    }
+    mSum -= std::exchange(mRecent[mNext], births);
+    mNext = (mNext + 1) % mWindow;
 }
 
 std::uint32_t AliveBound::value() const {

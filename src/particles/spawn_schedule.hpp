@@ -7,7 +7,6 @@
 #include <scene/effect.hpp>
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 namespace brume::particles {
@@ -27,6 +26,8 @@ class SpawnSchedule {
     explicit SpawnSchedule(const scene::Effect& effect);
 
     TickBirths at(std::uint64_t tick) const;
+    /// The same into memory that is used again.
+    void at(std::uint64_t tick, TickBirths& births) const;
 
     /// Births asked for in all ticks before `tick`: the birth index of the next one.
     std::uint64_t birthsBefore(std::uint64_t tick) const;
@@ -86,7 +87,8 @@ class AliveBound {
   private:
     std::uint32_t mCapacity;
     std::size_t mWindow;                // ticks after which a birth is surely over; 0: never
-    std::deque<std::uint32_t> mRecent;  // births per tick within the window
+    std::vector<std::uint32_t> mRecent;  // births of the last mWindow ticks, in a ring
+    std::size_t mNext = 0;
     std::uint64_t mSum = 0;
 };
 

@@ -1,20 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <particles/surfaces.hpp>
 #include <render/effect_particles.hpp>
+#include <scene/camera.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace brume::render {
 
 using frame::Access;
 
+namespace {
+
+std::string checkpointName(int frame, std::size_t entry) {
+    return fmt::format("frame_{:06}.effect_{:03}.state", frame, entry);
+}
+
+/// The last frame up to `frame` that `folder` has states of all these entries of.
+std::optional<int> findCheckpoint(const std::filesystem::path& folder, int frame,
+                                  const std::vector<std::size_t>& entries) {
+    std::map<int, std::set<std::size_t>> found;
+    std::error_code error;
+    for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+        int number = 0, read = 0;
+        std::size_t entry = 0;
+        const std::string name = file.path().filename().string();
+        // Names are compared whole: half-written files end differently.
+        if (std::sscanf(name.c_str(), "frame_%d.effect_%zu.state%n", &number, &entry, &read) == 2 &&
+            name == checkpointName(number, entry) && number <= frame)
+            found[number].insert(entry);
+    }
+    for (auto it = found.rbegin(); it != found.rend(); ++it)
+        if (std::all_of(entries.begin(), entries.end(),
+                        [&](std::size_t entry) { return it->second.count(entry) > 0; }))
+            return it->first;
+    return std::nullopt;
+}
+
+}  // namespace
+
 std::uint32_t firstParticleId(std::size_t effect) {
     return static_cast<std::uint32_t>(effect + 1) << 24;
 }
 
-EffectParticles::EffectParticles(gpu::Submitter& submitter, const PreparedScene& prepared)
+EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepared,
+                                 EffectParticles* previous)
     : mPrepared(&prepared) {
     groupInstances();
-    simulate(submitter);
+    for (const std::vector<std::size_t>& roots : mRoots) {
+        mKeys.push_back(keysOf(roots));
+        if (previous) {
+            mSimulations.push_back(previous->takeOver(mKeys.back()));
+            if (mSimulations.back()) continue;
+            mSimulations.pop_back();
+        }
+        std::vector<particles::EffectInstance> instances;
+        for (const std::size_t i : roots)
+            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i)});
+        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
+            device, prepared.scene.effects[roots[0]].effect, instances));
+    }
+}
+
+std::vector<std::uint64_t> EffectParticles::keysOf(const std::vector<std::size_t>& roots) const {
+    std::vector<std::uint64_t> keys;
+    for (const std::size_t i : roots) keys.push_back(mPrepared->scene.effects[i].key);
+    return keys;
+}
+
+std::unique_ptr<particles::GpuSimulation> EffectParticles::takeOver(
+    const std::vector<std::uint64_t>& keys) {
+    if (std::find(keys.begin(), keys.end(), 0u) != keys.end()) return nullptr;
+    for (std::size_t i = 0; i < mSimulations.size(); ++i)
+        if (mSimulations[i] && mKeys[i] == keys) return std::move(mSimulations[i]);
+    return nullptr;
+}
+
+std::uint64_t EffectParticles::ticksBehind() const {
+    std::uint64_t behind = 0;
+    for (std::size_t i = 0; i < mSimulations.size(); ++i) {
+        const std::uint64_t target = particles::ticksAt(
+            mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds(), mSimulations[i]->effect().tickRate);
+        behind = std::max(behind, target - std::min(target, mSimulations[i]->tick()));
+    }
+    return behind;
 }
 
 void EffectParticles::groupInstances() {
@@ -27,7 +101,7 @@ void EffectParticles::groupInstances() {
         } else {
             // Effects made in code have no file to know them by: each stands alone.
             const bool isKnown = !effects[i].file.empty();
-            const std::pair key(effects[i].file, effects[i].time);
+            const std::pair key(effects[i].file, effects[i].simulatedSeconds());
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -40,30 +114,32 @@ void EffectParticles::groupInstances() {
     }
 }
 
-void EffectParticles::simulate(gpu::Submitter& submitter) {
-    for (const std::vector<std::size_t>& roots : mRoots) {
-        std::vector<particles::EffectInstance> instances;
-        for (const std::size_t i : roots)
-            instances.push_back({mPrepared->scene.effects[i].seed, static_cast<std::uint32_t>(i)});
-        const scene::EffectInstance& first = mPrepared->scene.effects[roots[0]];
-        mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
-            submitter.device(), first.effect, instances));
-        submitter.submitAndWait("simulate " + first.file.filename().string(),
-                                [&](gpu::Commands& commands) {
-                                    mSimulations.back()->recordAdvanceTo(commands, first.time);
-                                });
+void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks) {
+    for (std::size_t i = 0; i < mSimulations.size(); ++i) {
+        particles::GpuSimulation& simulation = *mSimulations[i];
+        const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
+        const double tickRate = simulation.effect().tickRate;
+        const std::uint64_t target = particles::ticksAt(time, tickRate);
+        if (target > simulation.tick() && target - simulation.tick() > maxTicks)
+            simulation.recordTicks(commands, maxTicks);
+        else
+            simulation.recordAdvanceTo(commands, time);
     }
 }
 
 void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                               frame::BufferRef spheres) const {
-    if (mSimulations.empty()) return;
+    const auto& effects = mPrepared->scene.effects;
+    if (std::all_of(effects.begin(), effects.end(),
+                    [](const auto& effect) { return effect.effect.surface.has_value(); }))
+        return;
     frame.addPass("particles.appearance")
         .readsWrites(spheres, Access::ComputeWrite)
         .record([this, &scene, spheres](gpu::Commands& commands,
                                         const frame::PassResources& resources) {
             for (std::size_t i = 0; i < mPlaces.size(); ++i) {
                 const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+                if (effect.effect.surface) continue;
                 mSimulations[mPlaces[i].simulation]->recordAppearance(
                     commands, {.worldFromEffect = effect.worldFromEffect,
                                .cameraPosition = scene.camera().position,
@@ -77,10 +153,68 @@ void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
         });
 }
 
+particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,
+                                                          std::size_t entry) const {
+    return {particles::fingerprintOf(mSimulations[simulation]->effects()),
+            mPrepared->scene.effects[entry].seed, static_cast<std::uint32_t>(entry)};
+}
+
+void EffectParticles::writeCheckpoints(gpu::Submitter& submitter,
+                                       const std::filesystem::path& folder, int frame) const {
+    for (std::size_t s = 0; s < mSimulations.size(); ++s)
+        for (std::size_t i = 0; i < mRoots[s].size(); ++i)
+            particles::writeCheckpoint(
+                folder / checkpointName(frame, mRoots[s][i]), checkpointKeyOf(s, mRoots[s][i]),
+                mSimulations[s]->readState(submitter, static_cast<std::uint32_t>(i)));
+}
+
+void EffectParticles::readCheckpoints(gpu::Submitter& submitter,
+                                      const std::filesystem::path& folder, int frame) {
+    std::vector<std::size_t> entries;
+    for (const std::vector<std::size_t>& roots : mRoots)
+        entries.insert(entries.end(), roots.begin(), roots.end());
+    const std::optional<int> last = findCheckpoint(folder, frame, entries);
+    if (!last) return;
+    for (std::size_t s = 0; s < mSimulations.size(); ++s) {
+        std::vector<particles::SimulationState> states;
+        for (const std::size_t entry : mRoots[s])
+            states.push_back(particles::readCheckpoint(folder / checkpointName(*last, entry),
+                                                       checkpointKeyOf(s, entry),
+                                                       mSimulations[s]->effects()));
+        mSimulations[s]->writeState(submitter, states);
+    }
+}
+
+std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter) const {
+    const scene::Scene& scene = mPrepared->scene;
+    std::vector<scene::Mesh> surfaces;
+    for (std::size_t i = 0; i < mPlaces.size(); ++i) {
+        const scene::EffectInstance& effect = scene.effects[i];
+        if (!effect.effect.surface) continue;
+        const Place& place = mPlaces[i];
+        const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
+        const auto state = simulation.readState(submitter, place.instance);
+        const auto root = static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+        scene::Mesh mesh = particles::makeSurfaceMesh(
+            {.effect = effect.effect,
+             .compiled = simulation.effect(place.population),
+             .state = state,
+             .population = place.population,
+             .random = particles::instanceParameters(effect.seed, root, place.population).random,
+             .sinceTick = simulation.sinceTick()},
+            effect.worldFromEffect,
+            scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height),
+            effect.material);
+        if (!mesh.indices.empty()) surfaces.push_back(std::move(mesh));
+    }
+    return surfaces;
+}
+
 std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& submitter) const {
     std::vector<scene::MediumSphere> spheres;
     for (std::size_t i = 0; i < mPlaces.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+        if (effect.effect.surface) continue;
         const Place& place = mPlaces[i];
         const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
         const auto snapshot = simulation.readState(submitter, place.instance);

@@ -7,6 +7,7 @@
 #include <particles/gpu_simulation.hpp>
 #include <render/gpu_scene.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -14,13 +15,34 @@ namespace brume::render {
 
 class EffectParticles {
   public:
-    /// Simulates every effect of the scene up to its time.
-    EffectParticles(gpu::Submitter& submitter, const PreparedScene& scene);
+    /// Nothing is simulated yet; `scene` must outlive this. Takes simulations over from `previous`
+    /// (may be null) whose instances have the same keys.
+    EffectParticles(gpu::Device& device, const PreparedScene& scene,
+                    EffectParticles* previous = nullptr);
+
+    /// Records the ticks of every effect up to its time in the scene: at most `maxTicks` of each, so
+    /// that what lags behind catches up over several calls.
+    void recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks = ~std::uint64_t{0});
 
     /// Pass "particles.appearance": fills the effects' slots of `spheres`. Nothing without effects.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
 
+    /// Ticks that the effect farthest from its time is behind.
+    std::uint64_t ticksBehind() const;
+
+    /// Writes the state of each instance to a file of its own in `folder`. Submits and waits; throws
+    /// a failure Error.
+    void writeCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder,
+                          int frame) const;
+    /// Goes on from the last states in `folder` that are complete and not after `frame`; from the
+    /// beginning where there are none. Throws an input Error for those of other effects or seeds.
+    void readCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder, int frame);
+
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
+
+    /// Ribbons and billboards as they are now, facing the scene's camera, in the order of its
+    /// entries. Submits and waits.
+    std::vector<scene::Mesh> readSurfaces(gpu::Submitter& submitter) const;
     std::uint64_t bytes() const;
 
   private:
@@ -31,12 +53,15 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
-    void simulate(gpu::Submitter& submitter);
+    particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
+    std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
+    std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
 
     const PreparedScene* mPrepared;
     std::vector<Place> mPlaces;  // by entry
     std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
+    std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
 };
 
 /// Id of the first particle of an effect; ids only order what begins at equal distances.

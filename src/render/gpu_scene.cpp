@@ -18,26 +18,11 @@
 namespace brume::render {
 namespace {
 
-/// A buffer with the values, or with one zero element: bindings are never empty.
-template <typename T>
-gpu::Buffer makeArray(gpu::Submitter& submitter, const std::string& name, std::vector<T> values) {
-    if (values.empty()) values.resize(1);
-    gpu::Buffer buffer;
-    submitter.submitAndWait("upload " + name, [&](gpu::Commands& commands) {
-        buffer = gpu::makeBuffer(commands, name, values);
-    });
-    return buffer;
-}
-
 /// Uniform blocks, one every kUniformStride bytes.
 template <typename T>
-gpu::Buffer makeUniforms(gpu::Submitter& submitter, const std::string& name,
-                         const std::vector<T>& values) {
+void setUniform(std::vector<std::byte>& bytes, std::size_t index, const T& value) {
     static_assert(sizeof(T) <= shader::kUniformStride);
-    std::vector<std::byte> bytes(values.size() * shader::kUniformStride);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        std::memcpy(&bytes[i * shader::kUniformStride], &values[i], sizeof(T));
-    return makeArray(submitter, name, std::move(bytes));
+    std::memcpy(&bytes[index * shader::kUniformStride], &value, sizeof(T));
 }
 
 /// What rounding to float takes from a value.
@@ -121,126 +106,181 @@ Box3 findBounds(const PreparedScene& prepared) {
 
 }  // namespace
 
-GpuScene::GpuScene(gpu::Submitter& submitter, const PreparedScene& prepared)
-    : mNeeds(findNeeds(prepared)),
-      mTextureSampler(submitter.device(), {.name = "render.texture_sampler",
-                                           .filter = gpu::Filter::Linear,
-                                           .addressX = gpu::AddressMode::Repeat,
-                                           .addressY = gpu::AddressMode::Repeat}),
-      mTexelSampler(submitter.device(),
-                    {.name = "render.texel_sampler", .filter = gpu::Filter::Nearest}) {
-    findCamera(prepared);
-    uploadSpheres(submitter, prepared);
-    uploadVolumes(submitter, prepared);
-    uploadMeshes(submitter, prepared);
-    uploadFrame(submitter, prepared);
-}
-
-VkExtent2D GpuScene::extent() const {
-    return {static_cast<std::uint32_t>(mCamera.width), static_cast<std::uint32_t>(mCamera.height)};
-}
-
-void GpuScene::findCamera(const PreparedScene& prepared) {
+View makeView(const PreparedScene& prepared) {
     const scene::ImageSettings& image = prepared.scene.image;
-    mCamera = scene::makeCameraFrame(prepared.scene.camera, image.width * image.supersample,
-                                     image.height * image.supersample);
-    if (mCamera.type != scene::CameraType::Orthographic) return;
+    View view;
+    scene::CameraFrame& camera = view.camera;
+    camera = scene::makeCameraFrame(prepared.scene.camera, image.width * image.supersample,
+                                    image.height * image.supersample);
+    if (camera.type != scene::CameraType::Orthographic) return view;
     // Parallel rays may start anywhere along themselves: begin just before the scene, so that
     // distances keep their digits when the camera stands far away.
     const Box3 bounds = findBounds(prepared);
-    if (bounds.isEmpty()) return;
+    if (bounds.isEmpty()) return view;
     const double reach = 0.5 * glm::length(bounds.size()) * 1.01 + 1e-3;
-    const double middle = glm::dot(bounds.center() - mCamera.position, mCamera.forward);
+    const double middle = glm::dot(bounds.center() - camera.position, camera.forward);
     const double room = prepared.scene.effects.empty() ? reach : reach + 1000;
     const double shift = std::max(middle - room, 0.0);
-    mCamera.position += shift * mCamera.forward;
-    mCamera.near = std::max(mCamera.near - shift, 0.0);
-    mFar = std::max(middle - shift + room, mCamera.near + 1);
+    camera.position += shift * camera.forward;
+    camera.near = std::max(camera.near - shift, 0.0);
+    view.far = std::max(middle - shift + room, camera.near + 1);
+    return view;
 }
 
-void GpuScene::uploadFrame(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    const scene::Scene& scene = prepared.scene;
-    gpu::Device& device = submitter.device();
-    std::vector<shader::LightData> lights;
+GpuScene::GpuScene(gpu::Device& device, const PreparedScene& prepared, const View& view)
+    : mDevice(&device),
+      mPrepared(&prepared),
+      mView(view),
+      mNeeds(findNeeds(prepared)),
+      mTextureSampler(device, {.name = "render.texture_sampler",
+                               .filter = gpu::Filter::Linear,
+                               .addressX = gpu::AddressMode::Repeat,
+                               .addressY = gpu::AddressMode::Repeat}),
+      mTexelSampler(device, {.name = "render.texel_sampler", .filter = gpu::Filter::Nearest}) {
+    makeSpheres();
+    makeVolumes();
+    makeMeshes();
+    makeFrame();
+}
+
+VkExtent2D GpuScene::extent() const {
+    return {static_cast<std::uint32_t>(mView.camera.width),
+            static_cast<std::uint32_t>(mView.camera.height)};
+}
+
+/// Room for that many; bindings are never empty.
+template <typename T>
+gpu::Buffer GpuScene::makeArray(const char* name, std::size_t count) const {
+    return {*mDevice, {.name = name, .bytes = std::max<std::size_t>(count, 1) * sizeof(T)}};
+}
+
+void GpuScene::setView(const View& view) {
+    if (view.camera.position != mView.camera.position) mIsMoved = true;
+    mView = view;
+}
+
+void GpuScene::setShadows(const std::vector<VkDeviceAddress>& maps) { mShadowMaps = maps; }
+
+void GpuScene::makeFrame() {
+    const scene::Scene& scene = mPrepared->scene;
+    for (const scene::Light& light : scene.lights)
+        if (light.type != scene::LightType::Ambient) mSceneLights.push_back(light);
+    mShadowMaps.resize(mSceneLights.size());
+    const scene::Texture* environment = scene.background.environment.get();
+    mEnvironment = gpu::Image(
+        *mDevice,
+        {.name = "render.environment",
+         .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+         .width = environment ? static_cast<std::uint32_t>(environment->width) : 1u,
+         .height = environment ? static_cast<std::uint32_t>(environment->height) : 1u});
+    mFrame = makeArray<shader::FrameData>("render.frame", 1);
+    mLights = makeArray<shader::LightData>("render.lights", mSceneLights.size());
+    mMedia = makeArray<shader::MediumData>("render.media", scene.media.size());
+}
+
+void GpuScene::fillFrame() {
+    const scene::Scene& scene = mPrepared->scene;
+    const scene::CameraFrame& camera = mView.camera;
     dvec3 ambient(0);
+    std::size_t count = 0;
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient)
             ambient += light.color;
         else
-            mSceneLights.push_back(light);
+            mSceneLights[count++] = light;
     }
-    for (const scene::Light& light : mSceneLights)
-        lights.push_back(makeLight(light, mCamera.position));
-    std::vector<shader::MediumData> media;
-    for (const scene::Medium& medium : scene.media) media.push_back(makeMedium(medium));
-
-    const scene::Texture* environment = scene.background.environment.get();
-    const std::uint32_t width = environment ? static_cast<std::uint32_t>(environment->width) : 0;
-    const std::uint32_t height = environment ? static_cast<std::uint32_t>(environment->height) : 0;
-    mEnvironment = gpu::Image(device, {.name = "render.environment",
-                                       .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                       .width = std::max(width, 1u),
-                                       .height = std::max(height, 1u)});
-    const std::vector<vec4> texels = environment ? environment->texels : std::vector<vec4>{vec4(0)};
-    submitter.submitAndWait("upload environment", [&](gpu::Commands& commands) {
-        gpu::upload(commands, mEnvironment, texels);
-    });
-
-    const auto w = static_cast<std::uint32_t>(mCamera.width);
-    const auto h = static_cast<std::uint32_t>(mCamera.height);
-    const shader::FrameData data{.right = vec3(mCamera.right),
-                                 .rightLo = roundingOf(mCamera.right),
-                                 .extentX = static_cast<float>(mCamera.extentX),
-                                 .extentXLo = roundingOf(mCamera.extentX),
-                                 .up = vec3(mCamera.up),
-                                 .upLo = roundingOf(mCamera.up),
-                                 .extentY = static_cast<float>(mCamera.extentY),
-                                 .extentYLo = roundingOf(mCamera.extentY),
-                                 .forward = vec3(mCamera.forward),
-                                 .forwardLo = roundingOf(mCamera.forward),
-                                 .near = static_cast<float>(mCamera.near),
-                                 .ambient = vec3(ambient),
-                                 .orthographic = mCamera.type == scene::CameraType::Orthographic,
-                                 .background = vec3(scene.background.radiance),
-                                 .environmentScale = static_cast<float>(scene.background.scale),
-                                 .size = {w, h},
-                                 .tiles = {(w + shader::kTileSize - 1) / shader::kTileSize,
-                                           (h + shader::kTileSize - 1) / shader::kTileSize},
-                                 .environmentSize = {width, height},
-                                 .sphereCount = mSphereCount,
-                                 .boxCount = mBoxCount,
-                                 .lightCount = static_cast<std::uint32_t>(lights.size()),
-                                 .mediumCount = static_cast<std::uint32_t>(media.size()),
-                                 .far = static_cast<float>(mFar),
-                                 .brickValues = mBrickValues.deviceAddress()};
-    mFrame = makeArray(submitter, "render.frame", std::vector{data});
-    mLights = makeArray(submitter, "render.lights", std::move(lights));
-    mMedia = makeArray(submitter, "render.media", std::move(media));
-}
-
-void GpuScene::setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceAddress>& maps) {
-    std::vector<shader::LightData> lights;
+    mData.lights.clear();
     for (std::size_t i = 0; i < mSceneLights.size(); ++i) {
-        lights.push_back(makeLight(mSceneLights[i], mCamera.position));
-        lights.back().shadow = maps[i];
+        mData.lights.push_back(makeLight(mSceneLights[i], camera.position));
+        mData.lights.back().shadow = mShadowMaps[i];
     }
-    if (lights.empty()) return;
-    submitter.submitAndWait(
-        "upload lights", [&](gpu::Commands& commands) { gpu::upload(commands, mLights, lights); });
+    mData.media.clear();
+    for (const scene::Medium& medium : scene.media) mData.media.push_back(makeMedium(medium));
+    const scene::Texture* environment = scene.background.environment.get();
+    const VkExtent2D size = extent();
+    mData.frame = {.right = vec3(camera.right),
+                   .rightLo = roundingOf(camera.right),
+                   .extentX = static_cast<float>(camera.extentX),
+                   .extentXLo = roundingOf(camera.extentX),
+                   .up = vec3(camera.up),
+                   .upLo = roundingOf(camera.up),
+                   .extentY = static_cast<float>(camera.extentY),
+                   .extentYLo = roundingOf(camera.extentY),
+                   .forward = vec3(camera.forward),
+                   .forwardLo = roundingOf(camera.forward),
+                   .near = static_cast<float>(camera.near),
+                   .ambient = vec3(ambient),
+                   .orthographic = camera.type == scene::CameraType::Orthographic,
+                   .background = vec3(scene.background.radiance),
+                   .environmentScale = static_cast<float>(scene.background.scale),
+                   .size = {size.width, size.height},
+                   .tiles = {(size.width + shader::kTileSize - 1) / shader::kTileSize,
+                             (size.height + shader::kTileSize - 1) / shader::kTileSize},
+                   .environmentSize = environment ? glm::uvec2(mEnvironment.extent().width,
+                                                               mEnvironment.extent().height)
+                                                  : glm::uvec2(0),
+                   .sphereCount = mSphereCount,
+                   .boxCount = mBoxCount,
+                   .lightCount = static_cast<std::uint32_t>(mData.lights.size()),
+                   .mediumCount = static_cast<std::uint32_t>(mData.media.size()),
+                   .far = static_cast<float>(mView.far),
+                   .brickValues = mBrickValues.deviceAddress()};
 }
 
-void GpuScene::uploadSpheres(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    std::vector<shader::SphereData> spheres;
-    for (const scene::MediumSphere& sphere : prepared.spheres)
-        spheres.push_back(makeSphere(sphere, mCamera.position));
+void GpuScene::fillMoved() {
+    const dvec3& origin = mView.camera.position;
+    mData.spheres.clear();
+    for (const scene::MediumSphere& sphere : mPrepared->spheres)
+        mData.spheres.push_back(makeSphere(sphere, origin));
+    for (std::size_t i = 0; i < mBoxCorners.size(); ++i) {
+        const dvec3 corner = mBoxCorners[i] - origin;
+        mData.boxes[i].corner = vec3(corner);
+        mData.boxes[i].cornerLo = roundingOf(corner);
+    }
+    std::uint32_t vertex = 0, index = 0;
+    for (std::size_t i = 0; i < mPrepared->scene.meshes.size(); ++i) {
+        const scene::Mesh& mesh = mPrepared->scene.meshes[i];
+        const dmat4 relative = relativeFrom(mesh.worldFromObject, origin);
+        setUniform(mData.meshes, i,
+                   shader::MeshData{
+                       .relativeFromObject = glm::mat4x3(relative),
+                       .relativeFromObjectLo = glm::mat4x3(relative - dmat4(glm::mat4(relative))),
+                       .normalFromObject = glm::mat3(
+                           glm::transpose(glm::inverse(dmat3(mesh.worldFromObject)))),
+                       .firstVertex = vertex,
+                       .firstIndex = index});
+        vertex += static_cast<std::uint32_t>(mesh.positions.size());
+        index += static_cast<std::uint32_t>(mesh.indices.size());
+    }
+    mIsMoved = false;
+}
+
+void GpuScene::recordView(gpu::Commands& commands, gpu::UploadRing& ring) {
+    const bool isMoved = mIsMoved;
+    if (isMoved) fillMoved();
+    fillFrame();
+    commands.fullBarrier();
+    ring.write(commands, mFrame, std::span(&mData.frame, 1));
+    ring.write(commands, mLights, mData.lights);
+    ring.write(commands, mMedia, mData.media);
+    if (isMoved) {
+        ring.write(commands, mSpheres, mData.spheres);
+        ring.write(commands, mBoxes, mData.boxes);
+        ring.write(commands, mMeshes, mData.meshes);
+    }
+    commands.fullBarrier();
+}
+
+void GpuScene::makeSpheres() {
+    const auto& spheres = mPrepared->spheres;
     mSphereIdsAscend = std::is_sorted(spheres.begin(), spheres.end(),
                                       [](const auto& a, const auto& b) { return a.id < b.id; });
-    for (const scene::EffectInstance& effect : prepared.scene.effects) {
-        mFirstEffectSphere.push_back(static_cast<std::uint32_t>(spheres.size()));
-        spheres.resize(spheres.size() + effect.effect.capacity);
-    }
     mSphereCount = static_cast<std::uint32_t>(spheres.size());
-    mSpheres = makeArray(submitter, "render.spheres", std::move(spheres));
+    for (const scene::EffectInstance& effect : mPrepared->scene.effects) {
+        mFirstEffectSphere.push_back(mSphereCount);
+        if (!effect.effect.surface) mSphereCount += effect.effect.capacity;
+    }
+    mSpheres = makeArray<shader::SphereData>("render.spheres", mSphereCount);
 }
 
 void GpuScene::shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed) {
@@ -248,103 +288,125 @@ void GpuScene::shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed) {
     auto spheres = submitter.readBuffer<shader::SphereData>(mSpheres, mSphereCount);
     std::mt19937_64 random(seed);
     std::shuffle(spheres.begin(), spheres.end(), random);
-    mSpheres = makeArray(submitter, "render.spheres", std::move(spheres));
+    submitter.submitAndWait("upload spheres", [&](gpu::Commands& commands) {
+        gpu::upload(commands, mSpheres, spheres);
+    });
     mSphereIdsAscend = false;
 }
 
-void GpuScene::uploadVolumes(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    std::vector<shader::VolumeData> volumes;
-    std::vector<shader::BoxData> boxes;
-    std::vector<float> values;
-    for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
-        const volumes::VolumeGrid& grid = prepared.volumes[i];
-        const auto index = static_cast<std::uint32_t>(volumes.size());
-        const dmat3 linear(grid.worldFromIndex);
-        volumes.push_back({.indexFromWorld = glm::mat3(glm::inverse(linear)),
-                           .worldFromIndex = glm::mat3(linear),
-                           .medium = prepared.scene.volumes[i].medium});
-        if (prepared.scene.volumes[i].representation == scene::VolumeRepresentation::Particles)
+void GpuScene::makeVolumes() {
+    for (std::size_t i = 0; i < mPrepared->volumes.size(); ++i) {
+        const volumes::VolumeGrid& grid = mPrepared->volumes[i];
+        const auto index = static_cast<std::uint32_t>(i);
+        if (mPrepared->scene.volumes[i].representation == scene::VolumeRepresentation::Particles)
             continue;
         const auto add = [&](const dvec3& lo, const dvec3& size, std::uint32_t kind,
                              std::uint64_t offset, float value) {
-            const dvec3 corner = transformPoint(grid.worldFromIndex, lo) - mCamera.position;
-            boxes.push_back({.corner = vec3(corner),
-                             .cornerLo = roundingOf(corner),
-                             .volume = index,
-                             .size = vec3(size),
-                             .kind = kind,
-                             .valueOffset = static_cast<std::uint32_t>(offset),
-                             .value = value});
+            mBoxCorners.push_back(transformPoint(grid.worldFromIndex, lo));
+            mData.boxes.push_back({.volume = index,
+                                   .size = vec3(size),
+                                   .kind = kind,
+                                   .valueOffset = static_cast<std::uint32_t>(offset),
+                                   .value = value});
         };
         for (const volumes::Brick& brick : grid.bricks)
             add(dvec3(brick.origin), dvec3(volumes::kBrickCells), shader::kBoxBrick,
-                values.size() + brick.valueOffset, brick.maxValue);
+                mBrickData.size() + brick.valueOffset, brick.maxValue);
         for (const volumes::ValueBox& box : grid.boxes) {
             if (box.soft)
                 add(box.lo - 1.0, box.hi - box.lo + 2.0, shader::kBoxSoft, 0, box.value);
             else
                 add(box.lo, box.hi - box.lo, shader::kBoxHard, 0, box.value);
         }
-        values.insert(values.end(), grid.values.begin(), grid.values.end());
+        mBrickData.insert(mBrickData.end(), grid.values.begin(), grid.values.end());
     }
-    if (values.size() > 0xffffffffull)
+    if (mBrickData.size() > 0xffffffffull)
         throw failure("uploading volumes", "",
-                      fmt::format("{} brick values, allowed are 2^32", values.size()));
-    mBoxCount = static_cast<std::uint32_t>(boxes.size());
-    mVolumes = makeArray(submitter, "render.volumes", std::move(volumes));
-    mBoxes = makeArray(submitter, "render.boxes", std::move(boxes));
-    mBrickValues = makeArray(submitter, "render.brick_values", std::move(values));
+                      fmt::format("{} brick values, allowed are 2^32", mBrickData.size()));
+    mBoxCount = static_cast<std::uint32_t>(mData.boxes.size());
+    mVolumes = makeArray<shader::VolumeData>("render.volumes", mPrepared->volumes.size());
+    mBoxes = makeArray<shader::BoxData>("render.boxes", mBoxCount);
+    mBrickValues = makeArray<float>("render.brick_values", mBrickData.size());
 }
 
-const gpu::Image* GpuScene::uploadTexture(gpu::Submitter& submitter,
-                                          const scene::Texture* texture) {
+const gpu::Image* GpuScene::makeTexture(const scene::Texture* texture) {
     gpu::Image& image = mTextures[texture];
-    if (image) return &image;
-    image = gpu::Image(submitter.device(),
-                       {.name = texture ? "render.texture " + texture->name : "render.white",
-                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                        .width = texture ? static_cast<std::uint32_t>(texture->width) : 1,
-                        .height = texture ? static_cast<std::uint32_t>(texture->height) : 1});
-    const std::vector<vec4> texels = texture ? texture->texels : std::vector<vec4>{vec4(1)};
-    submitter.submitAndWait("upload texture",
-                            [&](gpu::Commands& commands) { gpu::upload(commands, image, texels); });
+    if (!image)
+        image = gpu::Image(
+            *mDevice, {.name = texture ? "render.texture " + texture->name : "render.white",
+                       .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                       .width = texture ? static_cast<std::uint32_t>(texture->width) : 1,
+                       .height = texture ? static_cast<std::uint32_t>(texture->height) : 1});
     return &image;
 }
 
-void GpuScene::uploadMeshes(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    std::vector<shader::VertexData> vertices;
-    std::vector<std::uint32_t> indices;
-    std::vector<shader::MeshData> meshes;
-    std::vector<shader::MaterialData> materials;
-    for (const scene::Material& material : prepared.scene.materials)
-        materials.push_back(makeMaterial(material));
-    for (const scene::Mesh& mesh : prepared.scene.meshes) {
-        const dmat3 linear(mesh.worldFromObject);
-        const dmat4 relative = relativeFrom(mesh.worldFromObject, mCamera.position);
-        meshes.push_back(
-            {.relativeFromObject = glm::mat4x3(relative),
-             .relativeFromObjectLo = glm::mat4x3(relative - dmat4(glm::mat4(relative))),
-             .normalFromObject = glm::mat3(glm::transpose(glm::inverse(linear))),
-             .firstVertex = static_cast<std::uint32_t>(vertices.size()),
-             .firstIndex = static_cast<std::uint32_t>(indices.size())});
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
-        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
-
-        const scene::Material& material = prepared.scene.materials[mesh.material];
+void GpuScene::makeMeshes() {
+    const scene::Scene& scene = mPrepared->scene;
+    std::size_t vertices = 0, indices = 0;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const scene::Mesh& mesh = scene.meshes[i];
+        const scene::Material& material = scene.materials[mesh.material];
+        vertices += mesh.positions.size();
+        indices += mesh.indices.size();
         const oit::SurfaceDraw draw{
-            .mesh = static_cast<std::uint32_t>(meshes.size() - 1),
+            .mesh = static_cast<std::uint32_t>(i),
             .material = mesh.material,
             .vertexCount = static_cast<std::uint32_t>(mesh.indices.size()),
             .isSolid = material.type == scene::MaterialType::Solid,
-            .colorTexture = uploadTexture(submitter, material.colorTexture.get()),
-            .emissionTexture = uploadTexture(submitter, material.emissionTexture.get())};
+            .colorTexture = makeTexture(material.colorTexture.get()),
+            .emissionTexture = makeTexture(material.emissionTexture.get())};
         (material.type == scene::MaterialType::Opaque ? mOpaque : mTransparent).push_back(draw);
     }
-    mVertices = makeArray(submitter, "render.vertices", std::move(vertices));
-    mIndices = makeArray(submitter, "render.indices", std::move(indices));
-    mMeshes = makeUniforms(submitter, "render.meshes", meshes);
-    mMaterials = makeUniforms(submitter, "render.materials", materials);
+    mVertices = makeArray<shader::VertexData>("render.vertices", vertices);
+    mIndices = makeArray<std::uint32_t>("render.indices", indices);
+    mData.meshes.resize(scene.meshes.size() * shader::kUniformStride);
+    mMeshes = makeArray<std::byte>("render.meshes",
+                                   std::max<std::size_t>(mData.meshes.size(), shader::kUniformStride));
+    mMaterials = makeArray<std::byte>(
+        "render.materials", std::max<std::size_t>(scene.materials.size(), 1) * shader::kUniformStride);
+}
+
+void GpuScene::recordContent(gpu::Commands& commands) {
+    const scene::Scene& scene = mPrepared->scene;
+    std::vector<shader::VolumeData> volumes;
+    for (std::size_t i = 0; i < mPrepared->volumes.size(); ++i) {
+        const dmat3 linear(mPrepared->volumes[i].worldFromIndex);
+        volumes.push_back({.indexFromWorld = glm::mat3(glm::inverse(linear)),
+                           .worldFromIndex = glm::mat3(linear),
+                           .medium = scene.volumes[i].medium});
+    }
+    std::vector<shader::VertexData> vertices;
+    std::vector<std::uint32_t> indices;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    std::vector<std::byte> materials(scene.materials.size() * shader::kUniformStride);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        setUniform(materials, i, makeMaterial(scene.materials[i]));
+    gpu::upload(commands, mVolumes, volumes);
+    gpu::upload(commands, mBrickValues, mBrickData);
+    mBrickData = {};
+    gpu::upload(commands, mVertices, vertices);
+    gpu::upload(commands, mIndices, indices);
+    gpu::upload(commands, mMaterials, materials);
+    for (const auto& [texture, image] : mTextures)
+        gpu::upload(commands, image, texture ? texture->texels : std::vector<vec4>{vec4(1)});
+    const scene::Texture* environment = scene.background.environment.get();
+    gpu::upload(commands, mEnvironment,
+                environment ? environment->texels : std::vector<vec4>{vec4(0)});
+
+    fillMoved();
+    fillFrame();
+    // Slots of effects are empty until their particles appear.
+    mData.spheres.resize(mSphereCount);
+    gpu::upload(commands, mFrame, std::span(&mData.frame, 1));
+    gpu::upload(commands, mLights, mData.lights);
+    gpu::upload(commands, mMedia, mData.media);
+    gpu::upload(commands, mSpheres, mData.spheres);
+    gpu::upload(commands, mBoxes, mData.boxes);
+    gpu::upload(commands, mMeshes, mData.meshes);
 }
 
 oit::Inputs GpuScene::makeInputs() const {

@@ -5,33 +5,57 @@
 #include <gpu/buffer.hpp>
 #include <gpu/image.hpp>
 #include <gpu/submitter.hpp>
+#include <gpu/upload_ring.hpp>
 #include <oit/inputs.hpp>
 #include <render/renderer.hpp>
 #include <scene/camera.hpp>
+
+#include <shaders/common/frame.h>
+#include <shaders/common/sphere.h>
 
 #include <map>
 #include <vector>
 
 namespace brume::render {
 
-/// Uploaded once per scene, camera and size.
+/// Where a frame is seen from.
+struct View {
+    scene::CameraFrame camera;  ///< of the samples; may stand in front of the scene's (orthographic)
+    double far = 1e6;           ///< m; depth range of an orthographic camera
+};
+
+/// The view of the scene's own camera.
+View makeView(const PreparedScene& scene);
+
+/// What does not depend on the camera is uploaded once; what does, whenever it changes.
 class GpuScene {
   public:
-    GpuScene(gpu::Submitter& submitter, const PreparedScene& scene);
+    /// Allocates; `scene` must outlive this. Nothing is on the device before recordContent().
+    GpuScene(gpu::Device& device, const PreparedScene& scene, const View& view);
+
+    /// Records the upload of everything. Allocates what a frame keeps until it is retired.
+    void recordContent(gpu::Commands& commands);
+
+    /// Looks from elsewhere; the size of the image stays.
+    void setView(const View& view);
+    /// The scene's lights, media, spheres, transforms or background have other values than before,
+    /// but nothing is added or removed.
+    void invalidate() { mIsMoved = true; }
+    /// Records the upload of what changed since recordContent() or the last call, ordered after all
+    /// that was recorded before and before all that follows.
+    void recordView(gpu::Commands& commands, gpu::UploadRing& ring);
 
     /// Puts all spheres, those of effects too, into an order drawn with that seed: no image may
     /// change.
     void shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed);
 
-    /// Gives each light the address of its ShadowMap; parallel to lights().
-    void setShadows(gpu::Submitter& submitter, const std::vector<VkDeviceAddress>& maps);
+    /// Gives each light the address of its ShadowMap, from the next upload on; parallel to lights().
+    void setShadows(const std::vector<VkDeviceAddress>& maps);
 
     /// Without the ambient ones: in the order of the shaders' array.
     const std::vector<scene::Light>& lights() const { return mSceneLights; }
 
-    const scene::CameraFrame& camera() const {
-        return mCamera;
-    }  ///< of the samples; may stand in front of the scene's (orthographic)
+    const scene::CameraFrame& camera() const { return mView.camera; }
     VkExtent2D extent() const;
 
     /// Everything but the frame's own references.
@@ -45,17 +69,35 @@ class GpuScene {
     std::uint64_t bytes() const;
 
   private:
-    void findCamera(const PreparedScene& scene);
-    void uploadFrame(gpu::Submitter& submitter, const PreparedScene& scene);
-    void uploadSpheres(gpu::Submitter& submitter, const PreparedScene& scene);
-    void uploadVolumes(gpu::Submitter& submitter, const PreparedScene& scene);
-    void uploadMeshes(gpu::Submitter& submitter, const PreparedScene& scene);
-    const gpu::Image* uploadTexture(gpu::Submitter& submitter, const scene::Texture* texture);
+    /// What depends on the camera, as the device will have it.
+    struct ViewData {
+        shader::FrameData frame{};
+        std::vector<shader::LightData> lights;
+        std::vector<shader::MediumData> media;
+        std::vector<shader::SphereData> spheres;
+        std::vector<shader::BoxData> boxes;
+        std::vector<std::byte> meshes;  // one every kUniformStride bytes
+    };
+    void makeSpheres();
+    void makeVolumes();
+    void makeMeshes();
+    void makeFrame();
+    void fillFrame();
+    void fillMoved();
+    const gpu::Image* makeTexture(const scene::Texture* texture);
+    template <typename T>
+    gpu::Buffer makeArray(const char* name, std::size_t count) const;
 
-    scene::CameraFrame mCamera;
+    gpu::Device* mDevice;
+    const PreparedScene* mPrepared;
+    View mView;
     std::vector<scene::Light> mSceneLights;
+    std::vector<VkDeviceAddress> mShadowMaps;  // by light
     oit::Needs mNeeds;
-    double mFar = 1e6;
+    ViewData mData;
+    bool mIsMoved = true;  // positions relative to the camera are to be computed anew
+    std::vector<dvec3> mBoxCorners;  // world
+    std::vector<float> mBrickData;   // until it is uploaded
     gpu::Buffer mFrame, mLights, mMedia, mSpheres, mBoxes, mVolumes, mBrickValues;
     gpu::Buffer mVertices, mIndices, mMeshes, mMaterials;
     gpu::Image mEnvironment;

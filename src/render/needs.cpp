@@ -92,7 +92,9 @@ float findLargestTint(const PreparedScene& prepared) {
 oit::Needs findNeeds(const PreparedScene& prepared) {
     const scene::Scene& scene = prepared.scene;
     oit::Needs needs;
-    needs.spheres = !prepared.spheres.empty() || !scene.effects.empty();
+    needs.spheres = !prepared.spheres.empty() ||
+                    std::any_of(scene.effects.begin(), scene.effects.end(),
+                                [](const auto& effect) { return !effect.effect.surface; });
     for (const scene::MediumSphere& sphere : prepared.spheres)
         if (sphere.profile == scene::Profile::Smooth) needs.varyingDensity = true;
     for (const scene::EffectInstance& effect : scene.effects)

@@ -77,11 +77,18 @@ void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
             commands.draw(3);
         });
     if (scene.opaqueMeshes().empty()) return;
-    const frame::ImageRef depth = makeTarget("render.depth", kDepthFormat);
+    declareMeshes(frame, scene, inputs, makeTarget("render.depth", kDepthFormat),
+                  gpu::LoadOp::Clear);
+}
+
+void OpaquePass::declareMeshes(frame::FrameBuilder& frame, const GpuScene& scene,
+                               const oit::Inputs& inputs, frame::ImageRef depth,
+                               gpu::LoadOp load) const {
+    if (scene.opaqueMeshes().empty()) return;
     frame.addPass("render.opaque")
         .color(inputs.opaqueColor, gpu::LoadOp::Load)
         .color(inputs.opaqueT, gpu::LoadOp::Load)
-        .depth(depth, gpu::LoadOp::Clear)
+        .depth(depth, load)
         .record([this, &scene, inputs](gpu::Commands& commands, const frame::PassResources&) {
             commands.bindGraphics(mOpaque);
             oit::bindFrame(commands, inputs);

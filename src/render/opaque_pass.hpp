@@ -14,6 +14,11 @@ class OpaquePass {
     /// Passes "render.background" and "render.opaque"; sets inputs.opaqueT and inputs.opaqueColor.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, oit::Inputs& inputs) const;
 
+    /// Pass "render.opaque" alone, over what inputs.opaqueT and inputs.opaqueColor already show;
+    /// `depth` (D32) holds its reversed depth, or nothing yet. None without opaque meshes.
+    void declareMeshes(frame::FrameBuilder& frame, const GpuScene& scene,
+                       const oit::Inputs& inputs, frame::ImageRef depth, gpu::LoadOp load) const;
+
     /// Pass "render.triangles": per pixel the wrapping sum of triangleHash() of what it sees.
     void declareTriangles(frame::FrameBuilder& frame, const GpuScene& scene,
                           const oit::Inputs& inputs, const gpu::Buffer& triangles) const;

@@ -2,15 +2,10 @@
 #include <core/error.hpp>
 #include <frame/frame_builder.hpp>
 #include <gpu/device.hpp>
-#include <oit/oit_method.hpp>
-#include <render/effect_particles.hpp>
-#include <render/gpu_scene.hpp>
+#include <render/composer.hpp>
 #include <render/needs.hpp>
-#include <render/opaque_pass.hpp>
 #include <render/renderer.hpp>
-#include <render/shadow_casters.hpp>
 #include <render/shadow_probe.hpp>
-#include <shadows/shadows.hpp>
 
 #include <fmt/format.h>
 
@@ -20,54 +15,59 @@
 namespace brume::render {
 namespace {
 
-/// Takes the settings that are the renderer's own out of those that go to the method.
-std::uint64_t takeShuffle(scene::Settings& settings) {
-    const auto found = settings.find("shuffle");
-    if (found == settings.end()) return 0;
-    scene::Settings own{*found};
-    settings.erase(found);
-    scene::SettingsReader reader(own, "setting up the renderer");
-    return static_cast<std::uint64_t>(reader.integer("shuffle", 0, 0, 1ll << 62));
-}
+/// Ribbons and billboards are meshes that face the camera: where effects show such, they are
+/// simulated before the scene is composed, which then has the meshes too.
+struct SurfacedScene {
+    std::optional<PreparedScene> scene;
+    std::unique_ptr<EffectParticles> effects;  // at their times
+    std::vector<scene::Mesh> surfaces;
 
-/// Settings "shadow.<name>" go to the shadow maps of all lights, as "<name>".
-scene::Settings takeShadowSettings(scene::Settings& settings) {
-    const std::string prefix = "shadow.";
-    scene::Settings taken;
-    std::erase_if(settings, [&](const auto& setting) {
-        const auto& [key, value] = setting;
-        const bool isOurs = key.starts_with(prefix);
-        if (isOurs) taken[key.substr(prefix.size())] = value;
-        return isOurs;
-    });
-    return taken;
-}
+    SurfacedScene(gpu::Device& device, gpu::Submitter& submitter, const PreparedScene& prepared,
+                  EffectParticles* previous) {
+        const auto& all = prepared.scene.effects;
+        if (std::none_of(all.begin(), all.end(),
+                         [](const auto& effect) { return effect.effect.surface.has_value(); }))
+            return;
+        scene = prepared;
+        // The composer takes the simulations over by their keys.
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (all[i].key == 0) scene->scene.effects[i].key = ~static_cast<std::uint64_t>(i);
+        effects = std::make_unique<EffectParticles>(device, *scene, previous);
+        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+            effects->recordSimulate(commands);
+        });
+        surfaces = effects->readSurfaces(submitter);
+        scene->scene.meshes.insert(scene->scene.meshes.end(), surfaces.begin(), surfaces.end());
+    }
+};
 
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(gpu::Device& device_, const PreparedScene& scene_, const Options& options_,
-         const Log& log_)
-        : device(device_),
-          prepared(scene_),
-          options(options_),
+    Impl(gpu::Device& device, const PreparedScene& prepared_, const Options& options_,
+         const Log& log_, EffectParticles* previous)
+        : options(options_),
           log(log_),
-          shuffle(takeShuffle(options.settings)),
-          shadowSettings(takeShadowSettings(options.settings)),
           submitter(device),
           pool(device),
           timers(device),
-          scene(submitter, prepared),
-          effects(submitter, prepared),
-          opaque(device, scene.makeInputs().needs) {
-        if (shuffle != 0) {
+          surfaced(device, submitter, prepared_, previous),
+          prepared(surfaced.scene ? *surfaced.scene : prepared_),
+          composer(device, prepared, options, makeView(prepared),
+                   surfaced.scene ? surfaced.effects.get() : previous) {
+        surfaced.effects.reset();
+        submitter.submitAndWait("upload scene",
+                                [&](gpu::Commands& commands) { composer.recordContent(commands); });
+        simulate();
+        if (composer.shuffleSeed != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
-            scene.shuffleSpheres(submitter, shuffle);
-            areSpheresFinal = true;
+            composer.scene.shuffleSpheres(submitter, composer.shuffleSeed);
+            composer.areSpheresFinal = true;
         }
-        prepareShadows();
-        method = oit::createMethod(options.method, device, scene.makeInputs(), options.settings);
-        const std::uint64_t pixels = std::uint64_t{scene.extent().width} * scene.extent().height;
+        if (composer.hasShadows()) prepareShadows();
+        composer.addMethod();
+        const VkExtent2D extent = composer.scene.extent();
+        const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height;
         image = gpu::Buffer(device, {.name = "render.image_read",
                                      .bytes = 16 * pixels,
                                      .memory = gpu::MemoryKind::Readback});
@@ -77,38 +77,71 @@ struct Renderer::Impl {
                                                  .bytes = 4 * pixels,
                                                  .memory = gpu::MemoryKind::Readback});
         }
-        method->prepare(
+        prepareMethod();
+    }
+
+    void simulate() {
+        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
+            composer.effects.recordSimulate(commands);
+        });
+    }
+
+    void prepareMethod() {
+        composer.method->prepare(
             [this](const oit::OitMethod::DeclareFunction& declare) { measure(declare); });
     }
 
-    void prepareShadows() {
-        if (scene.makeInputs().needs.shadowStores == 0) return;
-        casters.emplace(submitter, prepared, scene, effects.readSpheres(submitter));
-        shadows.emplace(submitter, casters->casters(), scene.lights(), shadowSettings);
-        shadows->prepare(submitter, [this](const shadows::Shadows::DeclareFunction& declare) {
+    bool advance() {
+        if (composer.shuffleSeed != 0 || surfaced.scene) return false;
+        simulate();
+        if (composer.hasShadows()) {
+            const Box3 bounds = translucentBounds();
+            // Lights without casters have no maps.
+            if (bounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
+                return false;
+            composer.shadows->fit(composer.scene.lights(), composer.scene.camera().position,
+                                  bounds);
+            composer.shadows->invalidate();
+            binCasters();
+        }
+        prepareMethod();
+        return true;
+    }
+
+    Box3 translucentBounds() {
+        return findTranslucentBounds(prepared, composer.effects.readSpheres(submitter));
+    }
+
+    void binCasters() {
+        composer.shadows->prepare(submitter, [&](const shadows::Shadows::DeclareFunction& declare) {
             frame::FrameBuilder frame(pool);
-            const frame::BufferRef spheres = frame.importBuffer(scene.spheres());
-            if (!areSpheresFinal) effects.declare(frame, scene, spheres);
-            declare(frame, spheres);
+            declare(frame, composer.declareParticles(frame));
             submitter.submitAndWait("measure shadows",
                                     [&](gpu::Commands& commands) { frame.execute(commands); });
         });
-        scene.setShadows(submitter, shadows->addresses());
-        areShadowsReady = true;
+    }
+
+    void prepareShadows() {
+        composer.addShadows(translucentBounds());
+        submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
+            composer.casters->recordContent(commands);
+        });
+        binCasters();
+        composer.scene.setShadows(composer.shadows->addresses());
+        gpu::UploadRing ring(composer.device, "render.upload", 1);
+        submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
+            composer.scene.recordView(commands, ring);
+        });
+        composer.areShadowsReady = true;
     }
 
     /// What every frame begins with: particles, background, opaque meshes, and room for the result.
     oit::Inputs declareInputs(frame::FrameBuilder& frame) {
-        oit::Inputs inputs = scene.makeInputs();
-        inputs.spheres = frame.importBuffer(scene.spheres());
-        if (!areSpheresFinal) effects.declare(frame, scene, inputs.spheres);
-        if (areShadowsReady) shadows->declare(frame, inputs.spheres);
-        opaque.declare(frame, scene, inputs);
-        inputs.result = frame.createImage({.name = "render.result",
-                                           .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                           .width = inputs.extent.width,
-                                           .height = inputs.extent.height,
-                                           .usage = 0});
+        oit::Inputs inputs = composer.scene.makeInputs();
+        inputs.spheres = composer.declareParticles(frame);
+        composer.declareShadows(frame, inputs.spheres);
+        composer.opaque.declare(frame, composer.scene, inputs);
+        composer.declareResult(frame, inputs);
         return inputs;
     }
 
@@ -121,9 +154,9 @@ struct Renderer::Impl {
 
     void declareFrame(frame::FrameBuilder& frame) {
         oit::Inputs inputs = declareInputs(frame);
-        method->declare(frame, inputs);
+        composer.method->declare(frame, inputs);
         if (options.triangleHashes) {
-            opaque.declareTriangles(frame, scene, inputs, triangles);
+            composer.opaque.declareTriangles(frame, composer.scene, inputs, triangles);
             frame.addReadback("render.triangles_read", frame.importBuffer(triangles),
                               trianglesRead);
         }
@@ -132,8 +165,8 @@ struct Renderer::Impl {
 
     Image readImage() const {
         const auto texels = image.mappedAs<vec4>();
-        Image samples(static_cast<int>(scene.extent().width),
-                      static_cast<int>(scene.extent().height));
+        const VkExtent2D extent = composer.scene.extent();
+        Image samples(static_cast<int>(extent.width), static_cast<int>(extent.height));
         for (std::size_t i = 0; i < samples.pixels.size(); ++i) samples.pixels[i] = vec3(texels[i]);
         const int n = prepared.scene.image.supersample;
         return n > 1 ? downsample(samples, n) : samples;
@@ -153,44 +186,30 @@ struct Renderer::Impl {
     }
 
     std::map<std::string, std::uint64_t> bytes() const {
-        std::map<std::string, std::uint64_t> kinds = method->bytes();
-        kinds["scene"] = scene.bytes();
+        std::map<std::string, std::uint64_t> kinds = composer.bytes();
         kinds["targets"] = pool.bytes();
-        kinds["particles"] = effects.bytes();
-        if (shadows) {
-            for (const auto& [kind, count] : shadows->bytes()) kinds[kind] = count;
-            kinds["shadowCasters"] = casters->bytes();
-        }
         std::uint64_t total = 0;
         for (const auto& [kind, count] : kinds) total += count;
         kinds["total"] = total;
-        kinds["perPixel"] = total / (std::uint64_t{scene.extent().width} * scene.extent().height);
+        const VkExtent2D extent = composer.scene.extent();
+        kinds["perPixel"] = total / (std::uint64_t{extent.width} * extent.height);
         return kinds;
     }
 
-    gpu::Device& device;
-    const PreparedScene& prepared;
     Options options;
     Log log;
-    std::uint64_t shuffle;
-    scene::Settings shadowSettings;
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
-    GpuScene scene;
-    EffectParticles effects;
-    OpaquePass opaque;
-    std::optional<ShadowCasters> casters;
-    std::optional<shadows::Shadows> shadows;
-    bool areShadowsReady = false;
-    bool areSpheresFinal = false;  // no effect writes them any more
-    std::unique_ptr<oit::OitMethod> method;
+    SurfacedScene surfaced;
+    const PreparedScene& prepared;
+    Composer composer;
     gpu::Buffer image, triangles, trianglesRead;
 };
 
 Renderer::Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
-                   const Log& log)
-    : mImpl(std::make_unique<Impl>(device, scene, options, log)) {}
+                   const Log& log, EffectParticles* previous)
+    : mImpl(std::make_unique<Impl>(device, scene, options, log, previous)) {}
 
 Renderer::~Renderer() = default;
 
@@ -217,8 +236,8 @@ Result Renderer::renderFrame() {
         if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read"))
             result.timeMs += pass.timeMs;
     result.bytes = mImpl->bytes();
-    result.counters = mImpl->method->counters();
-    result.errorBound = mImpl->method->errorBound();
+    result.counters = mImpl->composer.method->counters();
+    result.errorBound = mImpl->composer.method->errorBound();
     if (result.counters["exhausted"] > 0)
         mImpl->log.warning(
             fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "
@@ -227,15 +246,22 @@ Result Renderer::renderFrame() {
     return result;
 }
 
-std::vector<scene::MediumSphere> Renderer::readParticles() const {
-    return mImpl->effects.readSpheres(mImpl->submitter);
+EffectContents Renderer::readEffects() const {
+    return {mImpl->composer.effects.readSpheres(mImpl->submitter), mImpl->surfaced.surfaces};
+}
+
+bool Renderer::advance() { return mImpl->advance(); }
+
+std::unique_ptr<EffectParticles> Renderer::takeEffects() {
+    return std::make_unique<EffectParticles>(std::move(mImpl->composer.effects));
 }
 
 ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3> positions) const {
     std::vector<vec3> relative;
     for (const dvec3& position : positions)
-        relative.push_back(vec3(position - mImpl->scene.camera().position));
-    const ShadowProbe probe(mImpl->submitter, mImpl->scene.makeInputs().needs, light, relative);
+        relative.push_back(vec3(position - mImpl->composer.scene.camera().position));
+    const ShadowProbe probe(mImpl->submitter, mImpl->composer.scene.makeInputs().needs, light,
+                            relative);
     frame::FrameBuilder frame(mImpl->pool);
     probe.declare(frame, mImpl->declareInputs(frame));
     mImpl->submitter.submitAndWait("probe", [&](gpu::Commands& commands) {
@@ -249,8 +275,8 @@ ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3>
         else if (scope.name.starts_with("shadow.") && scope.name != "shadow.probe_read")
             samples.buildMs += scope.timeMs;
     }
-    if (!mImpl->shadows) return samples;
-    const shadows::Footprint footprint = mImpl->shadows->footprint(light);
+    if (!mImpl->composer.shadows) return samples;
+    const shadows::Footprint footprint = mImpl->composer.shadows->footprint(light);
     samples.bytesPerTexel = footprint.bytesPerTexel;
     samples.footprint = footprint.reach;
     samples.right = footprint.right;

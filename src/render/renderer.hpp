@@ -24,18 +24,27 @@ class Device;
 
 namespace brume::render {
 
+class EffectParticles;
+
 /// A scene with its files loaded: what both the GPU renderer and the reference see.
 struct PreparedScene {
-    scene::Scene scene;
+    scene::Scene scene;  ///< the materials of its effects' surfaces are those that they show
     std::vector<volumes::VolumeGrid> volumes;  ///< parallel to scene.volumes
     std::vector<scene::MediumSphere> spheres;  ///< scene.spheres and the volumes converted to
                                                ///< particles; effects are simulated by the renderer
+};
+
+/// What effects show at their time.
+struct EffectContents {
+    std::vector<scene::MediumSphere> spheres;
+    std::vector<scene::Mesh> surfaces;  ///< ribbons and billboards, facing the camera
 };
 
 struct Options {
     std::string method = "tile";
     scene::Settings settings;  ///< of the method; "shadow.<name>" of all lights' shadow maps;
                                ///< "shuffle"
+    bool hostLayers = false;  ///< a host draws layers of its own: method weighted only
     bool triangleHashes = false;  ///< also return which triangles each pixel saw
 };
 
@@ -72,8 +81,10 @@ class Renderer {
   public:
     /// Uploads the scene and simulates its effects to their time. Throws an Error (input: unknown
     /// method, bad setting; failure: device).
+    /// Goes on with the simulations of `previous` (may be null) whose instances have the same keys
+    /// (scene::EffectInstance::key); it is of no use afterwards.
     Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
-             const Log& log);
+             const Log& log, EffectParticles* previous = nullptr);
     ~Renderer();
 
     /// Renders one frame and reads it back. May be called again (benchmarks): same image, new
@@ -81,7 +92,14 @@ class Renderer {
     Result renderFrame();
 
     /// Particles as simulated on the device, read back: for the reference.
-    std::vector<scene::MediumSphere> readParticles() const;
+    EffectContents readEffects() const;
+
+    /// Goes on to the new times of the scene's effects, of which nothing else has changed. False
+    /// where that takes a new renderer, which takeEffects() helps.
+    bool advance();
+
+    /// The simulations, for the renderer of the next frame; this one is of no use afterwards.
+    std::unique_ptr<EffectParticles> takeEffects();
 
     /// Builds the shadow maps and asks them at world positions: the share of a light (counted
     /// without the ambient ones) that arrives there, per channel.

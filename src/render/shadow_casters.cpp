@@ -15,16 +15,6 @@ namespace {
 
 bool isGrey(const dvec3& v) { return v.x == v.y && v.y == v.z; }
 
-template <typename T>
-gpu::Buffer makeArray(gpu::Submitter& submitter, const std::string& name, std::vector<T> values) {
-    if (values.empty()) values.resize(1);
-    gpu::Buffer buffer;
-    submitter.submitAndWait("upload " + name, [&](gpu::Commands& commands) {
-        buffer = gpu::makeBuffer(commands, name, values);
-    });
-    return buffer;
-}
-
 void extend(Box3& bounds, const scene::MediumSphere& sphere) {
     if (!(sphere.radius > 0)) return;
     bounds.extend(sphere.center - dvec3(sphere.radius));
@@ -101,56 +91,67 @@ Box3 findTranslucentBounds(const PreparedScene& prepared,
     return bounds;
 }
 
-ShadowCasters::ShadowCasters(gpu::Submitter& submitter, const PreparedScene& prepared,
-                             const GpuScene& device,
-                             std::span<const scene::MediumSphere> particles) {
-    const oit::Inputs inputs = device.makeInputs();
-    if (inputs.needs.shadowStores == 0) return;
-    mCasters.origin = device.camera().position;
+ShadowCasters::ShadowCasters(gpu::Device& device, const PreparedScene& prepared,
+                             const GpuScene& deviceScene, const Box3& translucentBounds)
+    : mPrepared(&prepared) {
+    const oit::Inputs inputs = deviceScene.makeInputs();
+    mCasters.origin = deviceScene.camera().position;
     mCasters.frame = inputs.frame;
     mCasters.lights = inputs.lights;
     mCasters.media = inputs.media;
-    mCasters.spheres = &device.spheres();
+    mCasters.spheres = &deviceScene.spheres();
     mCasters.boxes = inputs.boxes;
     mCasters.volumes = inputs.volumes;
     mCasters.sphereCount = inputs.sphereCount;
     mCasters.boxCount = inputs.boxCount;
-    mCasters.translucentBounds = findTranslucentBounds(prepared, particles);
+    mCasters.translucentBounds = translucentBounds;
     for (const scene::Medium& medium : prepared.scene.media)
         if (!isGrey(medium.extinction)) mCasters.isColoured = true;
-    uploadTriangles(submitter, prepared);
-    uploadMaterials(submitter, prepared);
+    makeTriangles();
+    makeMaterials(device);
+    mTriangles = {device,
+                  {.name = "render.shadow_triangles",
+                   .bytes = std::max<std::size_t>(mTriangleData.size(), 1) *
+                            sizeof(shader::ShadowTriangle)}};
+    mMaterials = {device,
+                  {.name = "render.shadow_materials",
+                   .bytes = std::max<std::size_t>(mMaterialData.size(), 1) *
+                            sizeof(shader::ShadowMaterial)}};
     mCasters.triangles = &mTriangles;
     mCasters.materials = &mMaterials;
 }
 
-void ShadowCasters::uploadTriangles(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    std::vector<shader::ShadowTriangle> opaque, translucent;
-    std::uint32_t id = 0;
-    for (const scene::Mesh& mesh : prepared.scene.meshes) {
-        const scene::Material& material = prepared.scene.materials[mesh.material];
-        const bool isOpaque = material.type == scene::MaterialType::Opaque;
-        const dmat3 normalMatrix = glm::transpose(glm::inverse(dmat3(mesh.worldFromObject)));
-        if (castsColour(material)) mCasters.isColoured = true;
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            (isOpaque ? opaque : translucent).push_back(makeTriangle(mesh, i, normalMatrix, mCasters.origin));
-            shader::ShadowTriangle& triangle = (isOpaque ? opaque : translucent).back();
-            triangle.id = id++;
-            if (isOpaque)
+// The opaque ones first.
+void ShadowCasters::makeTriangles() {
+    mCasters.opaqueBounds = {};
+    mTriangleData.clear();
+    for (const bool wantsOpaque : {true, false}) {
+        std::uint32_t id = 0;
+        for (const scene::Mesh& mesh : mPrepared->scene.meshes) {
+            const scene::Material& material = mPrepared->scene.materials[mesh.material];
+            const bool isOpaque = material.type == scene::MaterialType::Opaque;
+            const dmat3 normalMatrix = glm::transpose(glm::inverse(dmat3(mesh.worldFromObject)));
+            if (castsColour(material)) mCasters.isColoured = true;
+            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3, ++id) {
+                if (isOpaque != wantsOpaque) continue;
+                shader::ShadowTriangle& triangle = mTriangleData.emplace_back(
+                    makeTriangle(mesh, i, normalMatrix, mCasters.origin));
+                triangle.id = id;
+                if (!isOpaque) continue;
                 for (const vec3& corner : {triangle.a, triangle.b, triangle.c})
                     mCasters.opaqueBounds.extend(dvec3(corner) + mCasters.origin);
+            }
         }
+        if (wantsOpaque)
+            mCasters.opaqueTriangleCount = static_cast<std::uint32_t>(mTriangleData.size());
     }
-    mCasters.opaqueTriangleCount = static_cast<std::uint32_t>(opaque.size());
-    mCasters.translucentTriangleCount = static_cast<std::uint32_t>(translucent.size());
-    opaque.insert(opaque.end(), translucent.begin(), translucent.end());
-    mTriangles = makeArray(submitter, "render.shadow_triangles", std::move(opaque));
+    mCasters.translucentTriangleCount =
+        static_cast<std::uint32_t>(mTriangleData.size()) - mCasters.opaqueTriangleCount;
 }
 
-void ShadowCasters::uploadMaterials(gpu::Submitter& submitter, const PreparedScene& prepared) {
-    std::vector<shader::ShadowMaterial> materials;
-    for (const scene::Material& material : prepared.scene.materials) {
-        shader::ShadowMaterial& data = materials.emplace_back();
+void ShadowCasters::makeMaterials(gpu::Device& device) {
+    for (const scene::Material& material : mPrepared->scene.materials) {
+        shader::ShadowMaterial& data = mMaterialData.emplace_back();
         data.transmission = vec3(material.transmission);
         data.type = material.type == scene::MaterialType::Opaque ? shader::kMaterialOpaque
                     : material.type == scene::MaterialType::Thin ? shader::kMaterialThin
@@ -166,13 +167,27 @@ void ShadowCasters::uploadMaterials(gpu::Submitter& submitter, const PreparedSce
         if (!usesTexture) continue;
         gpu::Buffer& buffer = mTextures[texture];
         if (!buffer)
-            buffer =
-                makeArray(submitter, "render.shadow_texture " + texture->name, texture->texels);
+            buffer = {device,
+                      {.name = "render.shadow_texture " + texture->name,
+                       .bytes = std::max<std::size_t>(texture->texels.size(), 1) * sizeof(vec4)}};
         data.textureSize = {static_cast<std::uint32_t>(texture->width),
                             static_cast<std::uint32_t>(texture->height)};
         data.texture = buffer.deviceAddress();
     }
-    mMaterials = makeArray(submitter, "render.shadow_materials", std::move(materials));
+}
+
+void ShadowCasters::recordContent(gpu::Commands& commands) {
+    gpu::upload(commands, mTriangles, mTriangleData);
+    gpu::upload(commands, mMaterials, mMaterialData);
+    for (const auto& [texture, buffer] : mTextures) gpu::upload(commands, buffer, texture->texels);
+}
+
+void ShadowCasters::recordOrigin(gpu::Commands& commands, gpu::UploadRing& ring,
+                                 const dvec3& origin) {
+    if (origin == mCasters.origin) return;
+    mCasters.origin = origin;
+    makeTriangles();
+    ring.write(commands, mTriangles, mTriangleData);
 }
 
 std::uint64_t ShadowCasters::bytes() const {

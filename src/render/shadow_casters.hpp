@@ -5,6 +5,8 @@
 #include <render/gpu_scene.hpp>
 #include <shadows/casters.hpp>
 
+#include <shaders/shadows/common/maps.h>
+
 #include <map>
 
 namespace brume::render {
@@ -13,22 +15,30 @@ namespace brume::render {
 Box3 findTranslucentBounds(const PreparedScene& scene,
                            std::span<const scene::MediumSphere> particles);
 
-/// Uploads the triangles and materials of a scene for shadow maps; media are those of the GpuScene.
+/// The triangles and materials of a scene for shadow maps; media are those of the GpuScene.
 class ShadowCasters {
   public:
-    /// `particles`: of the effects, as far as they are on the device. Nothing is uploaded unless
-    /// some light has a shadow.
-    ShadowCasters(gpu::Submitter& submitter, const PreparedScene& scene, const GpuScene& device,
-                  std::span<const scene::MediumSphere> particles);
+    /// `translucentBounds`: as findTranslucentBounds() says. Allocates; `scene` must outlive this.
+    /// Nothing is on the device before recordContent().
+    ShadowCasters(gpu::Device& device, const PreparedScene& scene, const GpuScene& deviceScene,
+                  const Box3& translucentBounds);
+
+    /// Records the upload of everything. Allocates what a frame keeps until it is retired.
+    void recordContent(gpu::Commands& commands);
+    /// The casters as seen from another origin; records the upload. Barriers are the caller's.
+    void recordOrigin(gpu::Commands& commands, gpu::UploadRing& ring, const dvec3& origin);
 
     const shadows::Casters& casters() const { return mCasters; }
     std::uint64_t bytes() const;
 
   private:
-    void uploadTriangles(gpu::Submitter& submitter, const PreparedScene& scene);
-    void uploadMaterials(gpu::Submitter& submitter, const PreparedScene& scene);
+    void makeTriangles();
+    void makeMaterials(gpu::Device& device);
 
+    const PreparedScene* mPrepared;
     shadows::Casters mCasters;
+    std::vector<shader::ShadowTriangle> mTriangleData;  // relative to the casters' origin
+    std::vector<shader::ShadowMaterial> mMaterialData;
     gpu::Buffer mTriangles, mMaterials;
     std::map<const scene::Texture*, gpu::Buffer> mTextures;
 };

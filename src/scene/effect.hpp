@@ -4,16 +4,18 @@
 
 #include <core/math.hpp>
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace brume::scene {
 
-enum class EmitterShape { Point, Line, Disc, Ring, Sphere, Box, Cone, Mesh };
+enum class EmitterShape { Point, Line, Disc, Ring, Sphere, Box, Cone, Mesh, Volume };
 
 /// What the cone of velocities is around.
 enum class EmitterVelocity {
@@ -34,6 +36,36 @@ struct EmitterTriangle {
     dvec3 a{0}, b{0}, c{0};
 };
 
+/// A grid of a VDB file.
+struct FieldSource {
+    std::string file;    ///< absolute path
+    std::string grid;    ///< its name
+    int gridIndex = -1;  ///< among the grids of that name; -1: the only one
+    auto operator<=>(const FieldSource&) const = default;
+};
+
+/// The values of a grid, dense over its active box.
+struct FieldValues {
+    ivec3 lo{0};                ///< index of the first voxel
+    ivec3 size{0};              ///< voxels; zero: empty
+    int componentCount = 1;     ///< 1 or 3
+    bool isStaggered = false;   ///< component c sits half a voxel below the voxel along axis c
+    bool isLevelSet = false;
+    double background = 0;      ///< outside the box, of scalars
+    dmat4 fileFromIndex{1};
+    std::vector<float> values;  ///< x fastest, components side by side; finite
+    std::vector<EmitterTriangle> surface;  ///< of a level set: where it is zero, file space
+};
+
+/// Where a grid lies in an effect, and what its values are multiplied by.
+struct FieldPlacement {
+    FieldSource source;
+    dvec3 position{0};    ///< of the file's origin, m
+    double scale = 1;     ///< of its lengths
+    double strength = 1;  ///< of its values
+    std::string where;    ///< file:line:column, for messages
+};
+
 struct Emitter {
     double rate = 0;  ///< particles per second
     std::vector<Burst> bursts;
@@ -48,6 +80,10 @@ struct Emitter {
     dvec3 size{0};           ///< box, full edge lengths; line, from its start to its end
     bool fromSurface = false;  ///< sphere, box, cone: births on the surface, not in the volume
     std::shared_ptr<const std::vector<EmitterTriangle>> triangles;  ///< mesh; uniform over the area
+    /// Volume: births in proportion to a density, or evenly on the surface of a level set; at
+    /// `position`.
+    std::optional<FieldPlacement> volume;
+    std::optional<FieldPlacement> velocityField;  ///< added to the velocity at birth
     /// Offset of the emitter at times that rise: linear between them, constant outside. Empty: 0.
     std::vector<std::pair<double, dvec3>> path;
     double inherit = 0;        ///< share of the emitter's or parent's velocity that births take over
@@ -88,10 +124,27 @@ struct SubEmitter {
     std::string where;                     ///< file:line:column, for messages
 };
 
+enum class SurfaceType {
+    Ribbon,    ///< the particles of one strand, in order of birth, as one thin surface
+    Billboard  ///< each particle as a rectangle that faces the camera
+};
+
+/// Particles shown as thin surfaces instead of as media.
+struct Surface {
+    SurfaceType type = SurfaceType::Ribbon;
+    std::string material;  ///< name of a thin material in the scene that uses the effect
+    int columns = 1, rows = 1;    ///< billboard: frames in the material's texture, row by row
+    Curve<double> frames;         ///< billboard, over life: number of the frame; no keys: all, once
+    Curve<double> rotation{{{0, 0}}};  ///< billboard, over life: radians, counter-clockwise
+    dvec2 startRotation{0};            ///< added, [low, high], radians
+    dvec2 spin{0};                     ///< [low, high], radians per second
+};
+
 struct Effect {
     std::uint32_t capacity = 10000;
     double tickRate = 120;  ///< simulation steps per second
-    std::string medium;     ///< name in the scene that uses the effect
+    std::string medium;     ///< name in the scene that uses the effect; not used with a surface
+    std::optional<Surface> surface;
     std::vector<Emitter> emitters;
     std::vector<ModuleSettings> modules;
     std::vector<SubEmitter> subEmitters;
@@ -103,6 +156,8 @@ struct Effect {
     Curve<double> radiusBySpeed;         ///< m/s to a factor; no keys: 1
     Curve<double> densityBySpeed;
     bool smoothProfile = false;
+    /// The grids that the effect names, once loaded (volumes::loadEffectFields).
+    std::map<FieldSource, std::shared_ptr<const FieldValues>> fields;
 };
 
 }  // namespace brume::scene

@@ -45,7 +45,8 @@ EmitterShape shapeNamed(const std::string& name) {
         {"point", EmitterShape::Point}, {"line", EmitterShape::Line},
         {"disc", EmitterShape::Disc},   {"ring", EmitterShape::Ring},
         {"sphere", EmitterShape::Sphere}, {"box", EmitterShape::Box},
-        {"cone", EmitterShape::Cone},   {"mesh", EmitterShape::Mesh}};
+        {"cone", EmitterShape::Cone},   {"mesh", EmitterShape::Mesh},
+        {"volume", EmitterShape::Volume}};
     return shapes.at(name);
 }
 
@@ -71,6 +72,19 @@ std::shared_ptr<const std::vector<EmitterTriangle>> readTriangles(const JsonNode
     return triangles;
 }
 
+/// A grid and where it lies; `position` and `strength` are optional.
+FieldPlacement readPlacement(const JsonNode& node, const EffectPlace& place) {
+    FieldPlacement field;
+    field.source.file = existingFile(node["file"], place).string();
+    field.source.grid = node["grid"].text();
+    node.read("gridIndex", field.source.gridIndex);
+    node.read("position", field.position);
+    node.read("scale", field.scale);
+    node.read("strength", field.strength);
+    field.where = node["file"].where();
+    return field;
+}
+
 void readShape(const JsonNode& node, const EffectPlace& place, Emitter& emitter) {
     emitter.shape = shapeNamed(node["type"].text());
     node.read("position", emitter.position);
@@ -87,6 +101,10 @@ void readShape(const JsonNode& node, const EffectPlace& place, Emitter& emitter)
         emitter.size = node["to"].vec3() - emitter.position;
     }
     if (emitter.shape == EmitterShape::Mesh) emitter.triangles = readTriangles(node, place);
+    if (emitter.shape == EmitterShape::Volume) {
+        emitter.volume = readPlacement(node, place);
+        emitter.volume->position = dvec3(0);  // births are relative to the emitter's
+    }
 }
 
 Burst readBurst(const JsonNode& node) {
@@ -127,12 +145,14 @@ Emitter readEmitter(const JsonNode& node, const EffectPlace& place) {
                            : name == "normal" ? EmitterVelocity::Normal
                                               : EmitterVelocity::Direction;
     }
+    if (node.has("velocityField"))
+        emitter.velocityField = readPlacement(node["velocityField"], place);
     node.readRadians("spread", emitter.spread);
     emitter.lifetime = node["lifetime"].range();
     return emitter;
 }
 
-ModuleSettings readModule(const JsonNode& node) {
+ModuleSettings readModule(const JsonNode& node, const EffectPlace& place) {
     ModuleSettings module;
     module.where = node.where();
     for (const auto& [key, value] : node.members()) {
@@ -142,7 +162,8 @@ ModuleSettings readModule(const JsonNode& node) {
         }
         module.whereOf[key] = value.where();
         if (value.json().is_string())
-            module.texts[key] = value.text();
+            module.texts[key] =
+                key == "file" ? existingFile(value, place).string() : value.text();
         else if (value.json().is_boolean())
             module.values[key] = {value.json().get<bool>() ? 1.0 : 0.0};
         else if (value.json().is_array())
@@ -197,14 +218,39 @@ SubEmitter readSubEmitter(const JsonNode& node, const EffectPlace& place) {
     return sub;
 }
 
+dvec2 readRadianRange(const JsonNode& node, const char* key) {
+    return node.has(key) ? node[key].range() * (kPi / 180) : dvec2(0);
+}
+
+Surface readSurface(const JsonNode& node) {
+    Surface surface;
+    if (node["type"].text() == "billboard") surface.type = SurfaceType::Billboard;
+    surface.material = node["material"].text();
+    node.read("columns", surface.columns);
+    node.read("rows", surface.rows);
+    readCurve(node, "frames", "age", surface.frames);
+    for (const auto& [age, frame] : surface.frames.keys)
+        if (frame > surface.columns * surface.rows - 1)
+            throw node["frames"].error("has a frame beyond the last, 0 to columns * rows - 1 allowed");
+    readCurve(node, "rotation", "age", surface.rotation);
+    for (auto& key : surface.rotation.keys) key.second *= kPi / 180;
+    surface.startRotation = readRadianRange(node, "startRotation");
+    surface.spin = readRadianRange(node, "spin");
+    return surface;
+}
+
 Effect readEffect(const JsonNode& root, const EffectPlace& place) {
     Effect effect;
     root.read("capacity", effect.capacity);
     root.read("tickRate", effect.tickRate);
     root.read("medium", effect.medium);
+    if (root.has("surface")) effect.surface = readSurface(root["surface"]);
+    if (effect.medium.empty() && !effect.surface)
+        throw root.error("has neither 'medium' nor 'surface', one of them is needed");
     for (const JsonNode& item : root.items("emitters"))
         effect.emitters.push_back(readEmitter(item, place));
-    for (const JsonNode& item : root.items("modules")) effect.modules.push_back(readModule(item));
+    for (const JsonNode& item : root.items("modules")) 
+        effect.modules.push_back(readModule(item, place));
     for (const JsonNode& item : root.items("subEmitters"))
         effect.subEmitters.push_back(readSubEmitter(item, place));
     if (root.has("overLife")) {

@@ -180,6 +180,7 @@ class SceneReader {
     void readVolume(const JsonNode& node) {
         Volume volume;
         volume.file = filePath(node["file"]);
+        node.read("frameOffset", volume.frameOffset);
         node.read("density", volume.density);
         node.read("gridIndex", volume.gridIndex);
         volume.medium = mMedia.resolve(node["medium"]);
@@ -212,16 +213,33 @@ class SceneReader {
         instance.worldFromEffect = readTransform(node);
         node.read("seed", instance.seed);
         node.read("time", instance.time);
+        node.read("start", instance.start);
+        node.read("timeScale", instance.timeScale);
+        node.read("loop", instance.loop);
+        node.read("prewarm", instance.prewarm);
         addEffect(node, std::move(instance));
     }
 
     /// The instance, then its sub-emitters, each before its own.
     void addEffect(const JsonNode& node, EffectInstance instance) {
-        const std::uint32_t* medium = mMedia.find(instance.effect.medium);
-        if (!medium)
-            throw node["file"].error("the effect wants a medium that the scene lacks: " +
-                                     mMedia.describeMissing(instance.effect.medium));
-        instance.medium = *medium;
+        if (instance.effect.surface) {
+            const std::string& name = instance.effect.surface->material;
+            const std::uint32_t* material = mMaterials.find(name);
+            if (!material)
+                throw node["file"].error("the effect wants a material that the scene lacks: " +
+                                         mMaterials.describeMissing(name));
+            if (mScene.materials[*material].type != MaterialType::Thin)
+                throw node["file"].error("the effect's surface has the material " +
+                                         quoteForMessage(name, 200) +
+                                         ", which is not thin, thin ones are allowed");
+            instance.material = *material;
+        } else {
+            const std::uint32_t* medium = mMedia.find(instance.effect.medium);
+            if (!medium)
+                throw node["file"].error("the effect wants a medium that the scene lacks: " +
+                                         mMedia.describeMissing(instance.effect.medium));
+            instance.medium = *medium;
+        }
         mScene.effects.push_back(instance);
         instance.isSubEmitter = true;
         const std::vector<SubEmitter> subEmitters = instance.effect.subEmitters;

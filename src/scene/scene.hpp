@@ -8,6 +8,8 @@
 #include <scene/effect.hpp>
 #include <scene/settings.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -128,7 +130,8 @@ struct Mesh {
 enum class VolumeRepresentation { Bricks, Boxes, Particles };
 
 struct Volume {
-    std::filesystem::path file;
+    std::filesystem::path file;  ///< may be a sequence: its name holds #### or %04d
+    int frameOffset = 0;         ///< sequences: number of the file that frame 0 shows
     std::string density = "density";  ///< name of the grid
     int gridIndex =
         -1;  ///< among the grids of that name; -1: the only one (several: an error that lists them)
@@ -154,10 +157,24 @@ struct EffectInstance {
     std::filesystem::path file;
     Effect effect;  ///< its medium name resolved to `medium`
     std::uint32_t medium = 0;
+    std::uint32_t material = 0;  ///< of an effect with a surface
+    bool isPrepared = false;     ///< that material shows the effect's look over life
     dmat4 worldFromEffect{1};
     std::uint64_t seed = 0;
-    double time = 0;  ///< seconds simulated before the frame
+    double time = 0;       ///< of the frame, s
+    double start = 0;      ///< the effect begins at that time, s
+    double timeScale = 1;  ///< >= 0; 0: paused at its beginning
+    double loop = 0;       ///< > 0: it begins anew after as many of its own seconds
+    double prewarm = 0;    ///< own seconds that it is older than it would be
     bool isSubEmitter = false;
+    std::uint64_t key = 0;  ///< of a host: who it is and which revision of its effect; 0: nobody asks
+
+    /// What the simulation has run for, own seconds.
+    double simulatedSeconds() const {
+        if (time < start) return 0;
+        const double own = (time - start) * timeScale;
+        return prewarm + (loop > 0 ? std::fmod(own, loop) : own);
+    }
 };
 
 struct RenderSettings {

@@ -2,7 +2,6 @@
 #include <shadows/caster_bins.hpp>
 #include <shadows/map_pass.hpp>
 
-#include <shaders/common/frame_bindings.h>
 #include <spv/shadows/bins/order.comp.hpp>
 #include <spv/shadows/bins/pairs.comp.hpp>
 #include <spv/shadows/bins/starts.comp.hpp>
@@ -17,14 +16,8 @@ using frame::Access;
 gpu::ComputePipeline makePipeline(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> spirv,
                                   std::vector<std::uint32_t> specialization) {
-    return {device,
-            {.name = name,
-             .spirv = spirv,
-             .bindings = {{shader::kBindingFrame, gpu::BindingType::StorageBuffer},
-                          {shader::kBindingLights, gpu::BindingType::StorageBuffer},
-                          {shader::kBindingMedia, gpu::BindingType::StorageBuffer}},
-             .pushConstantBytes = sizeof(shader::ShadowBinPush),
-             .specialization = std::move(specialization)}};
+    return makeMapPipeline(device, name, spirv, std::move(specialization),
+                           sizeof(shader::ShadowBinPush));
 }
 
 gpu::Buffer makeUints(gpu::Device& device, const std::string& name, std::uint64_t count) {
@@ -118,13 +111,19 @@ void CasterBins::recordPairs(gpu::Commands& commands, const Set& set, VkDeviceAd
                                .offsets = set.counts.deviceAddress(),
                                .count = set.count,
                                .first = set.first,
-                               .tileCount = mTileCount};
-    if (set.pairCount > 0) {
+                               .tileCount = mTileCount,
+                               .capacity = pairsToSort(set)};
+    if (push.capacity > 0) {
+        if (mIsReserved) {
+            // What is not written below belongs to no tile and goes to the end.
+            commands.fillBuffer(set.tiles, ~0u, 0, 4ull * push.capacity);
+            commands.computeTransferBarrier();
+        }
         run(commands, set.write, push, set.count);
-        set.pairSort->record(commands, push.keys, push.values, set.pairCount);
+        set.pairSort->record(commands, push.keys, push.values, push.capacity);
         commands.computeBarrier();
     }
-    push.count = set.pairCount;
+    push.count = push.capacity;
     push.offsets = set.starts.deviceAddress();
     run(commands, mStarts, push, mTileCount + 1);
 }
@@ -148,6 +147,10 @@ void CasterBins::declareCount(frame::FrameBuilder& frame, const gpu::Buffer& map
         for (const Set& set : mSets)
             if (set.count > 0) recordCount(commands, set, mapBuffer.deviceAddress());
     });
+    declareTotals(frame);
+}
+
+void CasterBins::declareTotals(frame::FrameBuilder& frame) {
     frame::PassBuilder& copy = frame.addPass("shadow.bins_read");
     for (const Set& set : mSets) {
         copy.reads(frame.importBuffer(set.counts), Access::TransferRead);
@@ -161,14 +164,45 @@ void CasterBins::declareCount(frame::FrameBuilder& frame, const gpu::Buffer& map
 }
 
 void CasterBins::allocate(shader::ShadowMap& map) {
+    for (Set& set : mSets) setRoom(set, set.total.mappedAs<std::uint32_t>()[0]);
+    setAddresses(map);
+}
+
+void CasterBins::reserve(shader::ShadowMap& map, std::uint32_t pairs) {
+    mIsReserved = true;
     for (Set& set : mSets) {
-        set.pairCount = set.total.mappedAs<std::uint32_t>()[0];
-        set.tiles = makeUints(*mDevice, "shadow.bins.tiles", set.pairCount);
-        set.casters = makeUints(*mDevice, "shadow.bins.casters", set.pairCount);
-        if (set.pairCount > 0)
-            set.pairSort =
-                std::make_unique<gpu::RadixSort>(*mDevice, "shadow.bins.pair_sort", set.pairCount);
+        setRoom(set, set.count > 0 ? pairs : 0);
+        set.total.mappedAs<std::uint32_t>()[0] = set.pairCount;  // nothing is known yet
     }
+    setAddresses(map);
+}
+
+std::uint32_t CasterBins::pairsToSort(const Set& set) const {
+    if (!mIsReserved) return set.pairCount;
+    const std::uint64_t last = set.total.mappedAs<std::uint32_t>()[0];
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(set.pairCount, last + last / 2 + 4096));
+}
+
+std::uint64_t CasterBins::droppedPairs() const {
+    std::uint64_t dropped = 0;
+    if (!mIsReserved) return dropped;
+    for (const Set& set : mSets) {
+        const std::uint32_t total = set.total.mappedAs<std::uint32_t>()[0];
+        dropped += total - std::min(total, set.pairCount);
+    }
+    return dropped;
+}
+
+void CasterBins::setRoom(Set& set, std::uint32_t pairs) {
+    set.pairCount = pairs;
+    set.tiles = makeUints(*mDevice, "shadow.bins.tiles", pairs);
+    set.casters = makeUints(*mDevice, "shadow.bins.casters", pairs);
+    if (pairs > 0)
+        set.pairSort = std::make_unique<gpu::RadixSort>(*mDevice, "shadow.bins.pair_sort", pairs);
+}
+
+void CasterBins::setAddresses(shader::ShadowMap& map) const {
     map.sphereOffsets = mSets[0].starts.deviceAddress();
     map.spherePairs = mSets[0].casters.deviceAddress();
     map.boxOffsets = mSets[1].starts.deviceAddress();
@@ -187,6 +221,7 @@ void CasterBins::declare(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffe
         for (const gpu::Buffer* buffer : {&set.orderKeys, &set.order, &set.counts, &set.sums,
                                           &set.tiles, &set.casters, &set.starts})
             pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
+        if (mIsReserved) pass.writes(frame.importBuffer(set.tiles), Access::TransferWrite);
     }
     pass.record([this, &mapBuffer](gpu::Commands& commands, const frame::PassResources&) {
         for (const Set& set : mSets) commands.fillBuffer(set.counts, 0);
@@ -196,6 +231,7 @@ void CasterBins::declare(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffe
             recordPairs(commands, set, mapBuffer.deviceAddress());
         }
     });
+    if (mIsReserved) declareTotals(frame);
 }
 
 void CasterBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {

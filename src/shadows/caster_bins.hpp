@@ -28,6 +28,12 @@ class CasterBins {
     void declareCount(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
                       frame::BufferRef spheres);
     void allocate(shader::ShadowMap& map);
+    /// Instead of counting first: room for that many pairs of each kind of caster. Frames then sort
+    /// what the newest finished frame had and half as much again; what does not fit casts no shadow
+    /// and is counted.
+    void reserve(shader::ShadowMap& map, std::uint32_t pairs);
+    /// After reserve(): pairs that the newest finished frame had no room for.
+    std::uint64_t droppedPairs() const;
     /// Pass "shadow.bins": counts and fills the tiles' lists.
     void declare(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
                  frame::BufferRef spheres);
@@ -37,7 +43,8 @@ class CasterBins {
 
   private:
     struct Set {
-        std::uint32_t kind = 0, first = 0, count = 0, pairCount = 0;
+        std::uint32_t kind = 0, first = 0, count = 0;
+        std::uint32_t pairCount = 0;  // there is room for
         gpu::Buffer orderKeys, order, counts, sums, total;
         gpu::Buffer tiles, casters, starts;
         gpu::ComputePipeline identity, distance, count_, write;
@@ -46,12 +53,17 @@ class CasterBins {
     Set makeSet(std::uint32_t kind, std::uint32_t first, std::uint32_t count);
     void recordCount(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
     void recordPairs(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
+    void declareTotals(frame::FrameBuilder& frame);
+    void setRoom(Set& set, std::uint32_t pairs);
+    void setAddresses(shader::ShadowMap& map) const;
+    std::uint32_t pairsToSort(const Set& set) const;
     void run(gpu::Commands& commands, const gpu::ComputePipeline& pipeline,
              const shader::ShadowBinPush& push, std::uint32_t threads) const;
 
     gpu::Device* mDevice;
     const Casters* mCasters;
     std::uint32_t mTileCount;
+    bool mIsReserved = false;
     gpu::PrefixSum mPrefixSum;
     gpu::ComputePipeline mStarts;
     std::array<Set, 3> mSets;  // spheres, boxes, triangles

@@ -9,14 +9,15 @@ using frame::Access;
 
 gpu::ComputePipeline makeMapPipeline(gpu::Device& device, const std::string& name,
                                      std::span<const std::uint32_t> spirv,
-                                     std::vector<std::uint32_t> specialization) {
+                                     std::vector<std::uint32_t> specialization,
+                                     std::uint32_t pushConstantBytes) {
     return {device,
             {.name = name,
              .spirv = spirv,
              .bindings = {{shader::kBindingFrame, gpu::BindingType::StorageBuffer},
                           {shader::kBindingLights, gpu::BindingType::StorageBuffer},
                           {shader::kBindingMedia, gpu::BindingType::StorageBuffer}},
-             .pushConstantBytes = sizeof(shader::ShadowPush),
+             .pushConstantBytes = pushConstantBytes,
              .specialization = std::move(specialization)}};
 }
 

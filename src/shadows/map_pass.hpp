@@ -9,7 +9,8 @@ namespace brume::shadows {
 /// A pipeline that includes shaders/shadows/common/casters.glsl.
 gpu::ComputePipeline makeMapPipeline(gpu::Device& device, const std::string& name,
                                      std::span<const std::uint32_t> spirv,
-                                     std::vector<std::uint32_t> specialization = {});
+                                     std::vector<std::uint32_t> specialization = {},
+                                     std::uint32_t pushConstantBytes = sizeof(shader::ShadowPush));
 
 /// Binds FrameData, lights and media.
 void bindCasters(gpu::Commands& commands, const Casters& casters);

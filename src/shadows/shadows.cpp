@@ -75,9 +75,9 @@ std::span<const scene::SettingInfo> listMapSettings() {
     return kSettings;
 }
 
-Shadows::Shadows(gpu::Submitter& submitter, const Casters& casters,
-                 std::span<const scene::Light> lights, const scene::Settings& overrides)
-    : mDevice(&submitter.device()), mCasters(casters) {
+Shadows::Shadows(gpu::Device& device, const Casters& casters, std::span<const scene::Light> lights,
+                 const scene::Settings& overrides)
+    : mDevice(&device), mCasters(casters) {
     for (const scene::Light& light : lights) {
         LightMaps& maps = mLights.emplace_back();
         if (light.shadow == "none") continue;
@@ -113,14 +113,16 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
     const CasterChoice choice = store == "opaque"  ? CasterChoice::Opaque
                                 : store == "exact" ? CasterChoice::All
                                                    : CasterChoice::Translucent;
-    const Box3 bounds = boundsOf(mCasters, choice);
-    if (bounds.isEmpty()) return nullptr;
+    map->choice = choice;
+    map->bounds = boundsOf(mCasters, choice);
+    map->focus = own.focus;
+    if (map->bounds.isEmpty()) return nullptr;
     data.store = map->store->info().bit;
     data.channels = mCasters.isColoured ? 3 : 1;
     data.resolution = store == "opaque" ? own.opaqueResolution : own.resolution;
     data.filterRadius = store == "opaque" ? own.opaqueFilter : 0;
     map->store->allocate(data);
-    fitMap(light, bounds, own.focus, mCasters.origin, data.filterRadius + 2, data);
+    fitMap(light, map->bounds, map->focus, mCasters.origin, data.filterRadius + 2, data);
     data.spheres = mCasters.spheres->deviceAddress();
     data.boxes = mCasters.boxes->deviceAddress();
     data.volumes = mCasters.volumes->deviceAddress();
@@ -132,10 +134,7 @@ std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const 
 }
 
 void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure) {
-    std::vector<Map*> maps;
-    for (LightMaps& light : mLights)
-        for (Map* map : {light.opaque.get(), light.own.get()})
-            if (map) maps.push_back(map);
+    const std::vector<Map*> maps = allMaps();
     if (maps.empty()) return;
     const auto uploadMaps = [&] {
         submitter.submitAndWait("upload shadow maps", [&](gpu::Commands& commands) {
@@ -147,6 +146,62 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
         for (Map* map : maps) map->bins->declareCount(frame, map->buffer, spheres);
     });
     for (Map* map : maps) map->bins->allocate(map->data);
+    linkOpaqueMaps();
+    uploadMaps();
+}
+
+std::vector<Shadows::Map*> Shadows::allMaps() const {
+    std::vector<Map*> maps;
+    for (const LightMaps& light : mLights)
+        for (Map* map : {light.opaque.get(), light.own.get()})
+            if (map) maps.push_back(map);
+    return maps;
+}
+
+void Shadows::reserve(std::uint32_t pairs) {
+    for (Map* map : allMaps()) map->bins->reserve(map->data, pairs);
+    linkOpaqueMaps();
+}
+
+void Shadows::fit(std::span<const scene::Light> lights, const dvec3& origin,
+                  const Box3& translucentBounds) {
+    mCasters.origin = origin;
+    mCasters.translucentBounds = translucentBounds;
+    for (std::size_t i = 0; i < mLights.size(); ++i)
+        for (Map* map : {mLights[i].opaque.get(), mLights[i].own.get()}) {
+            if (!map) continue;
+            const Box3 bounds = boundsOf(mCasters, map->choice);
+            if (!bounds.isEmpty()) map->bounds = bounds;
+            fitMap(lights[i], map->bounds, map->focus, origin, map->data.filterRadius + 2,
+                   map->data);
+        }
+}
+
+void Shadows::recordMaps(gpu::Commands& commands, gpu::UploadRing& ring) const {
+    for (const LightMaps& light : mLights)
+        for (const Map* map : {light.opaque.get(), light.own.get()})
+            if (map) ring.write(commands, map->buffer, std::span(&map->data, 1));
+}
+
+std::uint64_t Shadows::droppedPairs() const {
+    std::uint64_t dropped = 0;
+    for (const LightMaps& light : mLights)
+        for (const Map* map : {light.opaque.get(), light.own.get()})
+            if (map) dropped += map->bins->droppedPairs();
+    return dropped;
+}
+
+bool Shadows::keepsMaps() const {
+    const std::vector<Map*> maps = allMaps();
+    return std::any_of(maps.begin(), maps.end(), [](const Map* map) { return map->isKept; });
+}
+
+void Shadows::invalidate() {
+    for (Map* map : allMaps()) map->isBuilt = false;
+}
+
+// Once the lists' memory is known.
+void Shadows::linkOpaqueMaps() {
     for (LightMaps& light : mLights) {
         if (!light.own) light.own = std::move(light.opaque);
         if (!light.own) continue;
@@ -156,7 +211,6 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
                                                                             : nullptr;
         if (opaque) light.own->data.opaque = opaque->buffer.deviceAddress();
     }
-    uploadMaps();
 }
 
 void Shadows::declare(frame::FrameBuilder& frame, frame::BufferRef spheres) {

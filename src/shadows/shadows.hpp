@@ -3,7 +3,9 @@
 #pragma once
 
 #include <gpu/submitter.hpp>
+#include <gpu/upload_ring.hpp>
 #include <scene/scene.hpp>
+#include <shadows/light_map.hpp>
 #include <shadows/shadow_store.hpp>
 
 #include <functional>
@@ -26,7 +28,7 @@ class Shadows {
   public:
     /// `lights`: those of the shaders' array, in its order; each with its own store and settings,
     /// to which `overrides` are added. Throws an input Error for an unknown store or setting.
-    Shadows(gpu::Submitter& submitter, const Casters& casters, std::span<const scene::Light> lights,
+    Shadows(gpu::Device& device, const Casters& casters, std::span<const scene::Light> lights,
             const scene::Settings& overrides);
 
     using DeclareFunction = std::function<void(frame::FrameBuilder&, frame::BufferRef spheres)>;
@@ -34,6 +36,22 @@ class Shadows {
     using MeasureFunction = std::function<void(const DeclareFunction&)>;
     /// Finds out how many casters each tile has and allocates; once, before the first frame.
     void prepare(gpu::Submitter& submitter, const MeasureFunction& measure);
+
+    /// Instead of prepare(), for hosts that cannot wait: room for so many pairs of tile and caster of
+    /// each kind in each map. fit() and recordMaps() are due before the first frame.
+    void reserve(std::uint32_t pairs);
+    /// Fits the maps to where lights and casters are now, in device coordinates relative to `origin`;
+    /// the number of lights and their stores stay.
+    void fit(std::span<const scene::Light> lights, const dvec3& origin,
+             const Box3& translucentBounds);
+    /// Records the upload of what fit() has changed. Barriers are the caller's.
+    void recordMaps(gpu::Commands& commands, gpu::UploadRing& ring) const;
+    /// After reserve(): pairs that the newest finished frame had no room for.
+    std::uint64_t droppedPairs() const;
+    /// Some map is built once and kept: after the first frame, declare() adds less.
+    bool keepsMaps() const;
+    /// Kept maps are built anew by the next declare().
+    void invalidate();
 
     /// Passes "shadow.<store>.<stage>" of all maps; what is declared after them may light things.
     void declare(frame::FrameBuilder& frame, frame::BufferRef spheres);
@@ -50,6 +68,9 @@ class Shadows {
         std::unique_ptr<CasterBins> bins;
         shader::ShadowMap data{};
         gpu::Buffer buffer;
+        CasterChoice choice = CasterChoice::All;
+        Box3 bounds;
+        Focus focus;
         bool isKept = false;  // once built, while nothing moves
         bool isBuilt = false;
     };
@@ -57,6 +78,8 @@ class Shadows {
         std::unique_ptr<Map> own;     // of the light's store, or empty where nothing casts
         std::unique_ptr<Map> opaque;  // of the opaque casters
     };
+    std::vector<Map*> allMaps() const;
+    void linkOpaqueMaps();
     std::unique_ptr<Map> makeMap(const scene::Light& light, const std::string& store,
                                  scene::Settings settings);
 

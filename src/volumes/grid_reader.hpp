@@ -2,6 +2,7 @@
 // What the file formats have in common: a list of grids, of which one is read at a time.
 #pragma once
 
+#include <scene/effect.hpp>
 #include <volumes/sparse_field.hpp>
 #include <volumes/vdb_file.hpp>
 
@@ -33,6 +34,10 @@ class GridReader {
 
     /// Reads one grid. Throws MalformedFile or another standard exception.
     virtual LoadedGrid read(std::size_t ordinal) = 0;
+
+    /// Reads one grid of scalars or vectors as dense values; of a level set also its surface. Throws
+    /// MalformedFile, also for other types and for more than `maxValues` values.
+    virtual scene::FieldValues readField(std::size_t ordinal, std::uint64_t maxValues) = 0;
 };
 
 /// Both throw MalformedFile if the file is damaged or of another format.

@@ -301,6 +301,11 @@ class NvdbReader final : public GridReader {
 
     const std::vector<GridHeading>& headings() const override { return mHeadings; }
 
+    scene::FieldValues readField(std::size_t ordinal, std::uint64_t) override {
+        throw MalformedFile("grid \"" + mHeadings.at(ordinal).name +
+                            "\" lies in a NanoVDB file, fields are read from .vdb files");
+    }
+
     LoadedGrid read(std::size_t ordinal) override {
         const Entry& entry = mEntries.at(ordinal);
         LoadedGrid loaded;

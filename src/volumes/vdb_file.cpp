@@ -59,25 +59,25 @@ std::string listNames(const std::vector<GridHeading>& headings) {
     return list.empty() ? "none" : list;
 }
 
-/// The ordinal of the grid that the volume means.
-std::size_t chooseGrid(const std::vector<GridHeading>& headings, const scene::Volume& volume) {
+/// The ordinal of the grid of that name and index.
+std::size_t chooseGrid(const std::vector<GridHeading>& headings, const std::string& where,
+                       const std::string& name, int gridIndex) {
     std::vector<std::size_t> matches;
     for (std::size_t i = 0; i < headings.size(); ++i)
-        if (headings[i].name == volume.density) matches.push_back(i);
-    const std::string where = volume.file.string();
+        if (headings[i].name == name) matches.push_back(i);
     if (matches.empty())
         throw inputError(
             kDoing, where,
-            fmt::format("it has no grid \"{}\", it has {}", volume.density, listNames(headings)));
-    if (volume.gridIndex < 0 && matches.size() > 1)
+            fmt::format("it has no grid \"{}\", it has {}", name, listNames(headings)));
+    if (gridIndex < 0 && matches.size() > 1)
         throw inputError(kDoing, where,
                          fmt::format("it has {} grids \"{}\", choose one by gridIndex: {}",
-                                     matches.size(), volume.density, listNames(headings)));
-    const auto index = static_cast<std::size_t>(std::max(volume.gridIndex, 0));
+                                     matches.size(), name, listNames(headings)));
+    const auto index = static_cast<std::size_t>(std::max(gridIndex, 0));
     if (index >= matches.size())
         throw inputError(kDoing, where,
                          fmt::format("gridIndex {} of grid \"{}\", 0 to {} are allowed", index,
-                                     volume.density, matches.size() - 1));
+                                     name, matches.size() - 1));
     return matches[index];
 }
 
@@ -97,6 +97,31 @@ void warn(const scene::Volume& volume, const SanitiseReport& report, double back
         log.warning(where + fmt::format("the background is {}; it is taken as 0 outside the active "
                                         "voxels",
                                         background));
+}
+
+constexpr std::uint64_t kMaxFieldValues = std::uint64_t{1} << 25;
+
+void loadField(scene::Effect& effect, const scene::FieldSource& source, const std::string& place) {
+    std::shared_ptr<const scene::FieldValues>& field = effect.fields[source];
+    if (field) return;
+    const std::string where = place + ": " + source.file;
+    field = withFileErrors(where, [&] {
+        const auto reader = openFile(source.file);
+        const std::size_t ordinal =
+            chooseGrid(reader->headings(), where, source.grid, source.gridIndex);
+        return std::make_shared<const scene::FieldValues>(
+            reader->readField(ordinal, kMaxFieldValues));
+    });
+}
+
+void loadModuleField(scene::Effect& effect, const scene::ModuleSettings& module) {
+    const auto file = module.texts.find("file"), grid = module.texts.find("grid");
+    if (file == module.texts.end() || grid == module.texts.end()) return;  // the module complains
+    const auto index = module.values.find("gridIndex");
+    const bool hasIndex = index != module.values.end() && index->second.size() == 1;
+    const auto where = module.whereOf.find("file");
+    loadField(effect, {file->second, grid->second, hasIndex ? static_cast<int>(index->second[0]) : -1},
+              where == module.whereOf.end() ? module.where : where->second);
 }
 
 }  // namespace
@@ -119,7 +144,8 @@ std::vector<GridInfo> listGrids(const std::filesystem::path& file) {
 VolumeGrid loadVolume(const scene::Volume& volume, double extinctionMax, const Log& log) {
     return withFileErrors(volume.file, [&] {
         const auto reader = openFile(volume.file);
-        const std::size_t ordinal = chooseGrid(reader->headings(), volume);
+        const std::size_t ordinal = chooseGrid(
+            reader->headings(), volume.file.string(), volume.density, volume.gridIndex);
         LoadedGrid loaded = reader->read(ordinal);
         if (!loaded.info.refusal.empty())
             throw inputError(
@@ -135,6 +161,18 @@ VolumeGrid loadVolume(const scene::Volume& volume, double extinctionMax, const L
             convertToBoxes(grid, extinctionMax, volume.tolerance);
         return grid;
     });
+}
+
+void loadEffectFields(scene::Effect& effect) {
+    for (const scene::ModuleSettings& module : effect.modules) loadModuleField(effect, module);
+    for (const scene::Emitter& emitter : effect.emitters)
+        for (const auto* placement : {&emitter.volume, &emitter.velocityField})
+            if (*placement) loadField(effect, (*placement)->source, (*placement)->where);
+    for (scene::SubEmitter& sub : effect.subEmitters) {
+        auto child = std::make_shared<scene::Effect>(*sub.effect);
+        loadEffectFields(*child);
+        sub.effect = std::move(child);
+    }
 }
 
 }  // namespace brume::volumes

@@ -37,4 +37,9 @@ std::vector<GridInfo> listGrids(const std::filesystem::path& file);
 /// Error (unreadable, no such grid, several of that name, refused type).
 VolumeGrid loadVolume(const scene::Volume& volume, double extinctionMax, const Log& log);
 
+/// Loads the grids that an effect's modules and emitters name, and those of its sub-emitters, into
+/// their `fields`. At most 2^25 values each. Throws an input Error at the place in the effect's file
+/// that names the grid.
+void loadEffectFields(scene::Effect& effect);
+
 }  // namespace brume::volumes

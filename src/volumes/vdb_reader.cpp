@@ -2,6 +2,7 @@
 // .vdb files through OpenVDB. Nothing is read that the checker has not walked before.
 #include <volumes/grid_reader.hpp>
 #include <volumes/vdb_check.hpp>
+#include <volumes/vdb_field.hpp>
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
@@ -20,16 +21,6 @@ double measure(const T& value) {
         return openvdb::Vec3d(value).length();
     else
         return static_cast<double>(value);
-}
-
-/// OpenVDB multiplies row vectors from the left, GLM column vectors from the right: the same 16
-/// numbers in memory.
-dmat4 toWorldFromIndex(const openvdb::math::Transform& transform) {
-    const openvdb::Mat4d m = transform.baseMap()->getAffineMap()->getMat4();
-    dmat4 result;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) result[i][j] = m(i, j);
-    return result;
 }
 
 template <typename LeafT>
@@ -115,12 +106,7 @@ class VdbReader final : public GridReader {
                 "its values are of type " + entry.type + ", which is not a scalar";
             return loaded;
         }
-        FileReader reader(mPath);
-        VdbChecker(reader).checkGrid(mDirectory, entry);
-        openvdb::io::File file(mPath.string());
-        file.open(/*delayLoad=*/false);
-        const openvdb::GridBase::Ptr grid =
-            file.readGrid(openvdb::io::GridDescriptor::nameAsString(entry.uniqueName));
+        const openvdb::GridBase::Ptr grid = readGrid(entry);
         describe(*grid, loaded.info);
         if (loaded.info.refusal.empty())
             visitGrid<openvdb::FloatGrid, openvdb::DoubleGrid>(
@@ -128,7 +114,23 @@ class VdbReader final : public GridReader {
         return loaded;
     }
 
+    scene::FieldValues readField(std::size_t ordinal, std::uint64_t maxValues) override {
+        const VdbEntry& entry = mDirectory.grids.at(ordinal);
+        if (!entry.isKnown)
+            throw MalformedFile("grid \"" + entry.name + "\" is of type " + entry.type +
+                                ", float, half, double or vec3s are allowed");
+        return copyField(*readGrid(entry), entry.name, maxValues);
+    }
+
   private:
+    openvdb::GridBase::Ptr readGrid(const VdbEntry& entry) const {
+        FileReader reader(mPath);
+        VdbChecker(reader).checkGrid(mDirectory, entry);
+        openvdb::io::File file(mPath.string());
+        file.open(/*delayLoad=*/false);
+        return file.readGrid(openvdb::io::GridDescriptor::nameAsString(entry.uniqueName));
+    }
+
     static void describe(const openvdb::GridBase& grid, GridInfo& info) {
         using namespace openvdb;
         describeTopology(grid, info);

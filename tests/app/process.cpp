@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -64,22 +65,39 @@ void limit(int resource, rlim_t value) {
     _exit(127);
 }
 
-}  // namespace
-
-Outcome runBrume(const std::vector<std::string>& arguments, const Limits& limits) {
+Outcome run(const std::vector<std::string>& arguments, const Limits& limits,
+            const std::function<bool()>& isEnough) {
     const Capture out, err;
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("cannot fork");
     if (child == 0) becomeBrume(arguments, limits, out, err);
     int status = 0;
     rusage usage{};
-    wait4(child, &status, 0, &usage);
+    while (isEnough && wait4(child, &status, WNOHANG, &usage) == 0) {
+        if (isEnough()) {
+            kill(child, SIGKILL);
+            break;
+        }
+        usleep(1000);
+    }
+    wait4(child, &status, 0, &usage);  // fails, and changes nothing, where it was waited for above
     Outcome outcome;
     outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = out.read();
     outcome.err = err.read();
     outcome.maxResidentMiB = usage.ru_maxrss / 1024;
     return outcome;
+}
+
+}  // namespace
+
+Outcome runBrume(const std::vector<std::string>& arguments, const Limits& limits) {
+    return run(arguments, limits, {});
+}
+
+Outcome runBrumeUntil(const std::vector<std::string>& arguments,
+                      const std::function<bool()>& isEnough) {
+    return run(arguments, {}, isEnough);
 }
 
 bool isOneErrorLine(const std::string& err) {

@@ -2,6 +2,7 @@
 // Runs the brume command as a user would and says what came of it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct Limits {
 
 /// Runs `brume <arguments>`, with nothing on its standard input.
 Outcome runBrume(const std::vector<std::string>& arguments, const Limits& limits = {});
+
+/// The same, killed as soon as `isEnough()`, which is asked again and again.
+Outcome runBrumeUntil(const std::vector<std::string>& arguments,
+                      const std::function<bool()>& isEnough);
 
 /// True if `err` is exactly one line that begins with "brume: ".
 bool isOneErrorLine(const std::string& err);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pass contract: barriers that synchronization validation accepts, transient memory, errors.
+#include <volk.h>
+// volk.h goes first.
 #include <core/assert.hpp>
 #include <frame/frame_builder.hpp>
 #include <gpu/gpu_fixture.hpp>
@@ -337,6 +339,48 @@ TEST_F(FrameTest, Describe_DeclaredFrame_NamesPassesAndTargets) {
     EXPECT_EQ(description.targets[2].format, "r32g32b32a32_sfloat 8x4");
     EXPECT_EQ(description.targets[2].bytes, 512u);
     EXPECT_NE(description.text().find("increment"), std::string::npos);
+}
+
+// Twice the same passes: the second time nothing is made, and the result is that of the first.
+TEST_F(FrameTest, ExecutedAgain_GivesTheSame) {
+    const gpu::Buffer result = makeReadback(kBytes);
+    FrameBuilder frame(*mPool);
+    const BufferRef filled = addFill(frame, "filled", 41);
+    const BufferRef next = frame.createBuffer("next", kBytes);
+    addIncrement(frame, filled, next, 1);
+    frame.addReadback("read", next, result);
+    std::uint64_t allocations = 0;
+    for (int i = 0; i < 3; ++i) {
+        result.mappedAs<std::uint32_t>()[0] = 0;
+        submit([&](Commands& commands) { EXPECT_TRUE(frame.execute(commands)); });
+        EXPECT_EQ(result.mappedAs<std::uint32_t>()[0], 42u) << i;
+        if (i == 0) allocations = mPool->allocations();
+    }
+    EXPECT_EQ(mPool->allocations(), allocations);
+}
+
+// Between execute() and resume() the caller draws into the pass's rendering, here by clearing.
+TEST_F(FrameTest, HandedOverPass_TakesWhatTheCallerDraws) {
+    const gpu::Buffer result = makeReadback(4 * sizeof(float));
+    FrameBuilder frame(*mPool);
+    const ImageRef image = frame.createImage({.name = "image",
+                                              .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                              .usage = 0});
+    frame.addPass("open").color(image, gpu::LoadOp::Clear, {1, 2, 3, 4}).handOver();
+    frame.addReadback("read", image, result);
+    for (const float value : {7.f, 8.f}) {
+        submit([&](Commands& commands) {
+            EXPECT_THROW(frame.resume(commands), AssertionError);
+            EXPECT_FALSE(frame.execute(commands));
+            EXPECT_TRUE(frame.isPaused());
+            VkClearAttachment clear{VK_IMAGE_ASPECT_COLOR_BIT, 0, {}};
+            clear.clearValue.color = {{value, 0, 0, 0}};
+            const VkClearRect area{{{0, 0}, {1, 1}}, 0, 1};
+            device().vk().vkCmdClearAttachments(commands.handle(), 1, &clear, 1, &area);
+            EXPECT_TRUE(frame.resume(commands));
+        });
+        EXPECT_EQ(result.mappedAs<float>()[0], value);
+    }
 }
 
 TEST_F(FrameTest, Misuse_IsRefusedByName) {

@@ -18,7 +18,8 @@ shader::EffectParameters noiseParameters(double octaves, double scale, double st
 }
 
 dvec3 fieldAt(const shader::EffectParameters& parameters, const dvec3& p) {
-    return shader::surroundingsAt(parameters, parameters.step, shader::TickFields{}, 12, vec3(p))
+    return shader::surroundingsAt(parameters, nullptr, parameters.step, shader::TickFields{}, 12,
+                                  vec3(p))
         .acceleration;
 }
 

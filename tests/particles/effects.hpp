@@ -23,6 +23,65 @@ inline scene::Effect burstEffect(std::uint32_t count, double speed = 0,
     return effect;
 }
 
+/// A grid over [-4, 4]^3 m, `edge` voxels wide, with `value` of each voxel's place.
+template <typename Value>
+inline std::shared_ptr<const scene::FieldValues> makeField(int edge, int components,
+                                                           const Value& value) {
+    auto field = std::make_shared<scene::FieldValues>();
+    field->size = ivec3(edge);
+    field->lo = {-3, 2, 5};
+    field->componentCount = components;
+    field->fileFromIndex = glm::translate(dmat4(1), dvec3(-4)) *
+                           glm::scale(dmat4(1), dvec3(8.0 / (edge - 1))) *
+                           glm::translate(dmat4(1), -dvec3(field->lo));
+    for (int z = 0; z < edge; ++z)
+        for (int y = 0; y < edge; ++y)
+            for (int x = 0; x < edge; ++x) {
+                const dvec3 place = transformPoint(field->fileFromIndex,
+                                                   dvec3(field->lo + ivec3(x, y, z)));
+                const dvec3 values = value(place);
+                for (int i = 0; i < components; ++i)
+                    field->values.push_back(static_cast<float>(values[i]));
+            }
+    return field;
+}
+
+/// Air that turns around Y with an updraft, 1 rad/s.
+inline dvec3 swirl(const dvec3& p) { return {p.z, 0.5, -p.x}; }
+
+/// Grids "velocity" (staggered), "temperature", "density" and "ball", a level set of radius 1.2 m.
+inline void addTestFields(scene::Effect& effect) {
+    const auto add = [&](const char* grid, scene::FieldValues field) {
+        effect.fields[{"test.vdb", grid, -1}] =
+            std::make_shared<const scene::FieldValues>(std::move(field));
+    };
+    scene::FieldValues velocity = *makeField(9, 3, swirl);
+    velocity.isStaggered = true;
+    add("velocity", velocity);
+    add("temperature", *makeField(11, 1, [](const dvec3& p) { return dvec3(2 - 0.4 * p.y); }));
+    add("density", *makeField(9, 1, [](const dvec3& p) {
+        return dvec3(std::max(1 - glm::length(p) / 3, 0.0));
+    }));
+    scene::FieldValues ball =
+        *makeField(41, 1, [](const dvec3& p) { return dvec3(glm::length(p) - 1.2); });
+    ball.isLevelSet = true;
+    ball.background = 3;
+    ball.surface = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
+    add("ball", ball);
+}
+
+inline scene::FieldPlacement placeField(const char* grid) {
+    return {.source = {"test.vdb", grid, -1}, .where = "test.effect.json:9:9"};
+}
+
+/// A module that samples one of the test's grids.
+inline scene::ModuleSettings fieldModule(const std::string& type, const std::string& grid,
+                                         std::map<std::string, std::vector<double>> values = {}) {
+    scene::ModuleSettings settings = moduleSettings(type, std::move(values));
+    settings.texts = {{"file", "test.vdb"}, {"grid", grid}};
+    return settings;
+}
+
 /// Every module, every shape, bursts and rates, short and long lives.
 inline scene::Effect busyEffect(std::uint32_t capacity = 6000) {
     scene::Effect effect;
@@ -107,6 +166,12 @@ inline scene::Effect fullEffect(std::uint32_t capacity = 2000) {
     add(EmitterShape::Cone, EmitterVelocity::Normal, true);
     add(EmitterShape::Cone, EmitterVelocity::Radial, false);
     add(EmitterShape::Mesh, EmitterVelocity::Normal, false);
+    add(EmitterShape::Volume, EmitterVelocity::Direction, false);
+    effect.emitters.back().volume = placeField("density");
+    effect.emitters.back().velocityField = placeField("velocity");
+    add(EmitterShape::Volume, EmitterVelocity::Normal, false);
+    effect.emitters.back().volume = placeField("ball");
+    addTestFields(effect);
     effect.modules[2].values["drift"] = {0.5, -3, 1};
     for (const scene::ModuleSettings& module :
          {moduleSettings("quadratic_drag", {{"coefficient", {0.05}}, {"wind", {0, 1, 0}}}),
@@ -132,6 +197,12 @@ inline scene::Effect fullEffect(std::uint32_t capacity = 2000) {
                                              {"size", {0.3}}, {"friction", {0.6}}}),
           word(moduleSettings("kill_box", {{"size", {13, 13, 13}}}), "side", "inside"),
           moduleSettings("kill_sphere", {{"center", {3, 3, 3}}, {"size", {0.7}}}),
+          fieldModule("velocity_field", "velocity", {{"strength", {0.4}}}),
+          word(fieldModule("velocity_field", "velocity", {{"rate", {0.5}}, {"scale", {2}}}), "mode",
+               "drag"),
+          fieldModule("buoyancy", "temperature", {{"lift", {0.1, 0.8, 0}}, {"ambient", {0.5}}}),
+          fieldModule("collide_level_set", "ball", {{"position", {2.5, 0.3, -1}},
+                                                    {"scale", {0.5}}, {"radius", {0.03}}}),
           moduleSettings("kill_plane", {{"point", {0, -5, 0}}, {"normal", {0, 1, 0.1}}})})
         effect.modules.push_back(module);
 

@@ -141,7 +141,7 @@ TEST(CurlNoise, Drift_CarriesTheFieldAlong) {
         "curl_noise", {{"drift", {3, -1, 2}}, {"octaves", {3}}, {"scale", {0.7}}})};
     const CompiledEffect compiled = compileEffect(effect)[0];
     const auto at = [&](std::uint64_t tick, const dvec3& place) {
-        return dvec3(shader::surroundingsAt(compiled.parameters, compiled.parameters.step,
+        return dvec3(shader::surroundingsAt(compiled.parameters, nullptr, compiled.parameters.step,
                                             tickFields(compiled, tick), 5, vec3(place))
                          .acceleration);
     };

@@ -15,6 +15,7 @@ namespace {
 std::string messageOf(const scene::ModuleSettings& settings) {
     scene::Effect effect = burstEffect(1);
     effect.modules = {settings};
+    addTestFields(effect);
     try {
         compileEffect(effect);
     } catch (const Error& error) {
@@ -32,6 +33,13 @@ TEST(Modules, Registry_IsCompleteAndItsDefaultsAreAllowed) {
         scene::ModuleSettings settings = moduleSettings(module.info.name);
         for (const ModuleKey& key : module.info.keys) {
             EXPECT_FALSE(key.unit.empty() || key.summary.empty()) << module.info.name << key.name;
+            if (key.isText) {
+                settings.texts["file"] = "test.vdb";
+                settings.texts["grid"] = module.info.name == "velocity_field" ? "velocity"
+                                         : module.info.name == "buoyancy"     ? "temperature"
+                                                                              : "ball";
+                continue;
+            }
             if (!key.choices.empty()) {
                 settings.texts[key.name] = key.choices[0];
                 continue;
@@ -58,8 +66,8 @@ TEST(Modules, UnknownModule_ListsTheKnownOnes) {
     EXPECT_EQ(messageOf(moduleSettings("gravitation")),
               "setting up the modules of an effect: test.effect.json:3:5: there is no module "
               "'gravitation', known are gravity, drag, quadratic_drag, curl_noise, vortex, attractor, "
-              "collide_plane, collide_sphere, collide_box, collide_capsule, kill_plane, kill_sphere, "
-              "kill_box");
+              "velocity_field, buoyancy, collide_plane, collide_sphere, collide_box, "
+              "collide_capsule, collide_level_set, kill_plane, kill_sphere, kill_box");
 }
 
 TEST(Modules, UnknownKey_ListsTheKnownOnes) {
@@ -88,6 +96,10 @@ TEST(Modules, WrongValues_AreRefused) {
     contains(words, "'friction' of module 'collide_plane' is a word, a number allowed");
     contains(moduleSettings("collide_plane", {{"response", {1}}}),
              "'response' of module 'collide_plane' is a number, one of bounce");
+    contains(moduleSettings("buoyancy"), "module 'buoyancy' needs a text 'file'");
+    contains(fieldModule("buoyancy", "velocity"), "has values of 3 components, 1 allowed");
+    contains(fieldModule("buoyancy", "heat"), "test.vdb: grid \"heat\" is not loaded");
+    contains(fieldModule("collide_level_set", "density"), "the grid is no level set");
     contains(moduleSettings("collide_capsule", {{"to", {0, 0, 0}}}), "are the same place");
     contains(moduleSettings("curl_noise", {{"scale", {0}}}), "'scale' of module 'curl_noise' is 0");
 }

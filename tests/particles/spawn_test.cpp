@@ -154,7 +154,8 @@ int visitSpawned(const scene::Emitter& emitter, Visit&& visit) {
     const CompiledEffect compiled = compileEffect(effect)[0];
     const shader::RandomStream random = instanceParameters(11, 0, 0).random;
     for (std::uint32_t i = 0; i < kCount; ++i)
-        visit(shader::spawnParticle(compiled.triangles.data(), random, compiled.emitters[0], i, 1,
+        visit(shader::spawnParticle(compiled.parameters, compiled.fieldValues.data(),
+                                    compiled.triangles.data(), random, compiled.emitters[0], i, 1,
                                     0, vec3(0), vec3(0)));
     return kCount;
 }

@@ -162,7 +162,7 @@ TEST(Effect_Defaults, ShortestFile_HasThem) {
 TEST(Effect_Errors, EachFault_IsNamedAtItsPlace) {
     const std::string start = "loading effect: e.json:1:";
     EXPECT_EQ(parseMessage("{\"version\":1}"),
-              start + "1: key \"medium\": missing, must be a non-empty string");
+              start + "1: key \"emitters\": missing, must be an array of 0 to 1024, each an object");
     EXPECT_EQ(parseMessage(withEmitter("\"speed\":[2,1]")),
               start + "61: key \"emitters[0].speed\": is [high, low], must be [low, high]");
     EXPECT_EQ(
@@ -181,12 +181,12 @@ TEST(Effect_Errors, EachFault_IsNamedAtItsPlace) {
     EXPECT_EQ(parseMessage(withEmitter("\"shape\":{\"type\":\"torus\"}")),
               start +
                   "69: key \"emitters[0].shape.type\": is \"torus\", must be one of \"point\", "
-                  "\"line\", \"disc\", \"ring\", \"sphere\", \"box\", \"cone\", \"mesh\"");
+                  "\"line\", \"disc\", \"ring\", \"sphere\", \"box\", \"cone\", \"mesh\", \"volume\"");
     EXPECT_EQ(parseMessage(withEmitter("\"colour\":1")),
               start +
                   "53: key \"emitters[0].colour\": unknown key, known are bursts, delay, "
                   "direction, duration, inherit, lifetime, path, rate, shape, speed, spread, "
-                  "velocity");
+                  "velocity, velocityField");
     EXPECT_EQ(
         parseMessage(R"({"version":1,"medium":"m","emitters":[{"lifetime":0}]})"),
         start +

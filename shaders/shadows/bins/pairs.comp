@@ -25,8 +25,10 @@ void main() {
         }
         for (uint y = first.y; y <= last.y; ++y)
             for (uint x = first.x; x <= last.x; ++x) {
-                UintArray(push.keys).at[pair] = (face * tiles + y) * tiles + x;
-                UintArray(push.values).at[pair] = index;
+                if (pair < push.capacity) {
+                    UintArray(push.keys).at[pair] = (face * tiles + y) * tiles + x;
+                    UintArray(push.values).at[pair] = index;
+                }
                 ++pair;
             }
     }

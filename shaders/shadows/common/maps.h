@@ -107,6 +107,7 @@ struct ShadowBinPush {
     uint count;        // of casters; starts: of pairs
     uint first;        // index of the first caster
     uint tileCount;
+    uint capacity;     // pairs that there is room for; more are left out
 };
 
 BRUME_CONST uint kCasterSphere = 0u;

@@ -105,7 +105,12 @@ void printEffect(const scene::Effect& effect) {
                expectedBirthsPerSecond(effect));
     for (const scene::ModuleSettings& module : effect.modules)
         fmt::print("  module     {}\n", module.type);
-    fmt::print("  medium     {}, {} profile\n", effect.medium,
+    if (effect.surface)
+        fmt::print("  surface    {} of material {}\n",
+                   effect.surface->type == scene::SurfaceType::Ribbon ? "ribbon" : "billboard",
+                   effect.surface->material);
+    else
+        fmt::print("  medium     {}, {} profile\n", effect.medium,
                effect.smoothProfile ? "smooth" : "constant");
 }
 

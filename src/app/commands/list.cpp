@@ -66,12 +66,14 @@ void listShadows() {
 }
 
 std::string formatFallback(const particles::ModuleKey& key) {
+    if (key.isText) return "required";
     if (!key.choices.empty()) return key.choices[0];
     if (key.fallback.size() == 1) return fmt::format("{}", key.fallback[0]);
     return fmt::format("[{}, {}, {}]", key.fallback[0], key.fallback[1], key.fallback[2]);
 }
 
 std::string formatAllowed(const particles::ModuleKey& key) {
+    if (key.isText) return "any";
     if (!key.choices.empty()) return fmt::format("{}", fmt::join(key.choices, ", "));
     return fmt::format("{} to {}", key.lo, key.hi);
 }

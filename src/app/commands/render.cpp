@@ -3,38 +3,20 @@
 
 #include <app/commands/render.hpp>
 #include <app/console.hpp>
+#include <app/sequence.hpp>
 #include <bench/measure.hpp>
 #include <bench/prepare.hpp>
 #include <bench/report.hpp>
-#include <charconv>
 #include <chrono>
 #include <core/error.hpp>
+#include <core/frame_path.hpp>
 #include <core/image_io.hpp>
+#include <render/effect_particles.hpp>
 #include <scene/loader.hpp>
 #include <thread>
 
 namespace brume::app {
 namespace {
-
-constexpr int kMaxFrame = 1'000'000;
-
-struct FrameRange {
-    int first = 0;
-    int last = 0;
-};
-
-FrameRange parseFrames(const std::string& text) {
-    FrameRange range;
-    const char* end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, range.first);
-    const bool hasColon = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
-    const auto last = hasColon ? std::from_chars(first.ptr + 1, end, range.last) : first;
-    if (!hasColon || last.ec != std::errc() || last.ptr != end || range.first < 0 ||
-        range.last < range.first || range.last > kMaxFrame)
-        throw inputError("reading options", "--frames " + text,
-                         fmt::format("not FIRST:LAST with 0 <= FIRST <= LAST <= {}", kMaxFrame));
-    return range;
-}
 
 /// The scene with what the command line changes about it.
 scene::Scene loadChangedScene(const RenderArguments& arguments, const Log& log) {
@@ -54,14 +36,22 @@ scene::Scene loadChangedScene(const RenderArguments& arguments, const Log& log) 
     if (arguments.seed)
         for (std::size_t i = 0; i < scene.effects.size(); ++i)
             scene.effects[i].seed = *arguments.seed + i;
+    // By these the simulations of one frame go on in the next.
+    for (std::size_t i = 0; i < scene.effects.size(); ++i) scene.effects[i].key = i + 1;
     return scene;
 }
 
-/// One image with its measurement. `particles`: what it shows of the effects.
+/// The number that sequences of volumes begin with.
+int firstFrame(const RenderArguments& arguments) {
+    if (arguments.frames.empty()) return arguments.frame.value_or(0);
+    return framesOf(parseFrames(arguments.frames), parseShard(arguments.shard)).first;
+}
+
+/// One image with its measurement. `effects`: what it shows of them.
 struct Rendered {
     bench::Row row;
     render::Result frame;
-    std::vector<scene::MediumSphere> particles;
+    render::EffectContents effects;
     std::string explanation;
 };
 
@@ -70,12 +60,16 @@ class RenderCommand {
     RenderCommand(const RenderArguments& arguments, const Log& log)
         : mArguments(arguments),
           mLog(log),
-          mScene(bench::prepareScene(loadChangedScene(arguments, log), log)) {}
+          mScene(bench::prepareScene(loadChangedScene(arguments, log), log, firstFrame(arguments))),
+          mLoadedFrame(firstFrame(arguments)) {}
 
     void run();
 
   private:
     bool usesReference() const { return mScene.scene.render.method == "reference"; }
+    void renderSequence();
+    void writeCheckpoints();
+    void showFrame(int frame);
     void renderNumbered(int frame, const std::filesystem::path& output);
     void renderOne(const std::filesystem::path& output);
     Rendered renderOnDevice();
@@ -87,6 +81,9 @@ class RenderCommand {
     const Log& mLog;
     render::PreparedScene mScene;
     std::unique_ptr<gpu::Device> mDevice;
+    std::unique_ptr<render::Renderer> mRenderer;        // of the last frame, while it can go on
+    std::unique_ptr<render::EffectParticles> mEffects;  // as that or a checkpoint has left them
+    int mLoadedFrame;                                   // of volumes that are sequences
     std::vector<bench::Row> mRows;
 };
 
@@ -105,13 +102,10 @@ class Stopwatch {
 void RenderCommand::run() {
     if (!usesReference()) mDevice = openDevice(mArguments.device, mLog);
     if (!mArguments.frames.empty()) {
-        const FrameRange range = parseFrames(mArguments.frames);
-        Progress progress("rendering frames");
-        for (int frame = range.first; frame <= range.last; ++frame) {
-            progress.update(static_cast<double>(frame - range.first) /
-                            (range.last - range.first + 1));
-            renderNumbered(frame, makeFramePath(mArguments.output, frame));
-        }
+        if (parseShard(mArguments.shard).index == 0)
+            writeCheckpoints();
+        else
+            renderSequence();
     } else if (mArguments.frame) {
         renderNumbered(*mArguments.frame, mArguments.output);
     } else {
@@ -121,9 +115,63 @@ void RenderCommand::run() {
     if (mDevice) checkValidation(*mDevice, mLog);
 }
 
-void RenderCommand::renderNumbered(int frame, const std::filesystem::path& output) {
+void RenderCommand::renderSequence() {
+    const FrameRange range = framesOf(parseFrames(mArguments.frames), parseShard(mArguments.shard));
+    Progress progress("rendering frames");
+    bool mustRestore = !mArguments.checkpoints.empty() && mDevice;
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        progress.update(static_cast<double>(frame - range.first) / range.count());
+        const std::filesystem::path output = makeFramePath(mArguments.output, frame);
+        std::error_code ignored;
+        if (mArguments.resume && std::filesystem::exists(output, ignored)) continue;
+        if (mustRestore) {
+            showFrame(frame);
+            gpu::Submitter submitter(*mDevice);
+            mEffects = std::make_unique<render::EffectParticles>(*mDevice, mScene);
+            mEffects->readCheckpoints(submitter, mArguments.checkpoints, frame);
+            mustRestore = false;
+        }
+        renderNumbered(frame, output);
+    }
+}
+
+// Simulates through the sequence once and leaves the state that each shard starts from.
+void RenderCommand::writeCheckpoints() {
+    const std::vector<int> frames =
+        firstFramesOf(parseFrames(mArguments.frames), parseShard(mArguments.shard).count);
+    std::error_code error;
+    std::filesystem::create_directories(mArguments.checkpoints, error);
+    if (error)
+        throw failure("writing checkpoints", mArguments.checkpoints.string(), error.message());
+    if (!mDevice) mDevice = openDevice(mArguments.device, mLog);  // the reference needs none
+    gpu::Submitter submitter(*mDevice);
+    render::EffectParticles effects(*mDevice, mScene);
+    Progress progress("simulating");
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        progress.update(static_cast<double>(i) / static_cast<double>(frames.size()));
+        showFrame(frames[i]);
+        submitter.submitAndWait("simulate",
+                                [&](gpu::Commands& commands) { effects.recordSimulate(commands); });
+        effects.writeCheckpoints(submitter, mArguments.checkpoints, frames[i]);
+    }
+    fmt::print("{}: {} of {}\n", mArguments.checkpoints.string(),
+               formatCount(frames.size(), "checkpoint"),
+               formatCount(mScene.scene.effects.size(), "effect"));
+}
+
+void RenderCommand::showFrame(int frame) {
+    if (frame != mLoadedFrame && bench::hasVolumeSequence(mScene.scene)) {
+        if (mRenderer) mEffects = mRenderer->takeEffects();
+        mRenderer.reset();
+        mScene = bench::prepareScene(std::move(mScene.scene), mLog, frame);
+    }
+    mLoadedFrame = frame;
     for (scene::EffectInstance& effect : mScene.scene.effects)
         effect.time = frame / mArguments.frameRate;
+}
+
+void RenderCommand::renderNumbered(int frame, const std::filesystem::path& output) {
+    showFrame(frame);
     renderOne(output);
 }
 
@@ -145,7 +193,14 @@ Rendered RenderCommand::renderOnDevice() {
     options.method = mScene.scene.render.method;
     options.settings = mScene.scene.render.settings;
     options.triangleHashes = mArguments.against == "reference";
-    render::Renderer renderer(*mDevice, mScene, options, mLog);
+    if (!mRenderer || !mRenderer->advance()) {
+        if (mRenderer) mEffects = mRenderer->takeEffects();
+        mRenderer.reset();
+        mRenderer =
+            std::make_unique<render::Renderer>(*mDevice, mScene, options, mLog, mEffects.get());
+        mEffects.reset();
+    }
+    render::Renderer& renderer = *mRenderer;
     if (mArguments.repeats > 1) renderer.renderFrame();
     bench::FrameSamples samples;
     Progress progress("rendering");
@@ -158,7 +213,7 @@ Rendered RenderCommand::renderOnDevice() {
         bench::describeRun(mArguments.scene.string(), mScene.scene, options, mDevice->info());
     samples.summariseInto(rendered.row);
     rendered.frame = samples.last();
-    rendered.particles = renderer.readParticles();
+    rendered.effects = renderer.readEffects();
     if (mArguments.explain) rendered.explanation = renderer.explain();
     return rendered;
 }
@@ -175,11 +230,11 @@ Rendered RenderCommand::renderByReference() {
     cpu.driver = "double precision";
     Rendered rendered;
     rendered.row = bench::describeRun(mArguments.scene.string(), mScene.scene, options, cpu);
-    rendered.particles = bench::simulateOnCpu(mScene.scene);
+    rendered.effects = bench::simulateOnCpu(mScene.scene);
     Progress progress("rendering by reference");
     const Stopwatch watch;
     reference::Result exact =
-        bench::renderReference(mScene, rendered.particles, progress.callback());
+        bench::renderReference(mScene, rendered.effects, progress.callback());
     rendered.frame.timeMs = watch.elapsedMs();
     rendered.frame.passes = {{"reference", rendered.frame.timeMs}};
     rendered.frame.image = std::move(exact.image);
@@ -198,7 +253,7 @@ void RenderCommand::compare(Rendered& rendered) {
     if (mArguments.against == "reference") {
         Progress progress("rendering the reference");
         const reference::Result exact =
-            bench::renderReference(mScene, rendered.particles, progress.callback());
+            bench::renderReference(mScene, rendered.effects, progress.callback());
         comparison = bench::compareWithReference(rendered.frame, exact);
     } else {
         comparison = bench::compareImages(rendered.frame.image, readImage(mArguments.against));
@@ -215,6 +270,24 @@ void RenderCommand::writeRows() const {
     bench::writeTextFile(mArguments.json, text);
 }
 
+void checkSequence(const RenderArguments& arguments) {
+    const auto fail = [](const std::string& option, const std::string& problem) {
+        return inputError("reading options", option, problem);
+    };
+    if (arguments.frames.empty()) {
+        if (!arguments.shard.empty()) throw fail("--shard", "needs --frames FIRST:LAST");
+        if (arguments.resume) throw fail("--resume", "needs --frames FIRST:LAST");
+        if (!arguments.checkpoints.empty())
+            throw fail("--checkpoints", "needs --frames FIRST:LAST");
+        return;
+    }
+    parseFrames(arguments.frames);
+    if (parseShard(arguments.shard).index == 0 && arguments.checkpoints.empty())
+        throw fail("--shard " + arguments.shard, "needs --checkpoints FOLDER to write to");
+    if (arguments.resume && arguments.output.empty())
+        throw fail("--resume", "needs -o FILE to look for");
+}
+
 /// Faults in the options should show before minutes of work.
 void checkArguments(const RenderArguments& arguments) {
     const std::string extension = arguments.output.extension().string();
@@ -224,7 +297,7 @@ void checkArguments(const RenderArguments& arguments) {
     if (arguments.frame && (*arguments.frame < 0 || *arguments.frame > kMaxFrame))
         throw inputError("reading options", fmt::format("--frame {}", *arguments.frame),
                          fmt::format("not in 0..{}", kMaxFrame));
-    if (!arguments.frames.empty()) parseFrames(arguments.frames);
+    checkSequence(arguments);
 }
 
 }  // namespace

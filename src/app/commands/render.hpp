@@ -22,6 +22,9 @@ struct RenderArguments {
     std::string size;              ///< "WxH"; empty: the scene's
     std::optional<int> frame;  ///< effects at frame / frameRate seconds; none: at their own times
     std::string frames;        ///< "A:B", both included
+    std::string shard;         ///< "I/N": the I-th of N parts of the frames; 0/N: their checkpoints
+    std::filesystem::path checkpoints;  ///< folder of simulation states; empty: none
+    bool resume = false;                ///< leave out frames whose files are there
     double frameRate = kDefaultFrameRate;
     std::optional<std::uint64_t> seed;  ///< of the first effect, counting up for the others
     std::vector<std::string> settings;  ///< "key=value"
@@ -33,9 +36,5 @@ struct RenderArguments {
 };
 
 void runRender(const RenderArguments& arguments, const Log& log);
-
-/// The file of one frame of a sequence: the first run of '#' or "%0Nd" becomes the number; without
-/// any, the number goes before the extension.
-std::filesystem::path makeFramePath(const std::filesystem::path& pattern, int frame);
 
 }  // namespace brume::app

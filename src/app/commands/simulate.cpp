@@ -11,6 +11,7 @@
 #include <particles/cpu_simulation.hpp>
 #include <particles/gpu_simulation.hpp>
 #include <scene/loader.hpp>
+#include <volumes/vdb_file.hpp>
 
 #include <optional>
 
@@ -142,7 +143,8 @@ bench::SimulationRow simulateOnDevice(const SimulateArguments& arguments,
 
 void runSimulate(const SimulateArguments& arguments, const Log& log) {
     checkArguments(arguments);
-    const scene::Effect effect = scene::loadEffect(arguments.effect, log);
+    scene::Effect effect = scene::loadEffect(arguments.effect, log);
+    volumes::loadEffectFields(effect);
     const Checkpoint checkpoint(arguments, effect);
     const bench::SimulationRow row = arguments.reference
                                          ? simulateOnCpu(arguments, effect, checkpoint)

@@ -21,6 +21,8 @@ const ModuleKey* findKey(const ModuleInfo& info, const std::string& name) {
 void checkValue(const ModuleInfo& info, const ModuleKey& key, const std::vector<double>& value,
                 const std::string& where) {
     const std::string subject = fmt::format("'{}' of module '{}'", key.name, info.name);
+    if (key.isText)
+        throw inputError(kDoing, where, fmt::format("{} is a number, a text allowed", subject));
     if (!key.choices.empty())
         throw inputError(kDoing, where,
                          fmt::format("{} is a number, one of {} allowed", subject,
@@ -79,18 +81,27 @@ const ModuleKey& requireKey(const ModuleInfo& info, const std::string& name,
 ModuleValues::ModuleValues(const ModuleInfo& info, const scene::ModuleSettings& settings)
     : mWhere(settings.where) {
     for (const ModuleKey& key : info.keys) {
-        if (key.choices.empty())
+        if (key.isText && !settings.texts.contains(key.name))
+            throw inputError(kDoing, settings.values.contains(key.name)
+                                         ? placeOf(settings, key.name)
+                                         : mWhere,
+                             fmt::format("module '{}' needs a text '{}'", info.name, key.name));
+        if (key.isText)
+            mTexts[key.name] = settings.texts.at(key.name);
+        else if (key.choices.empty())
             set(info, key, key.fallback, mWhere);
         else
             mChoices[key.name] = 0;
     }
+    if (mTexts.contains("file")) mFileWhere = placeOf(settings, "file");
     for (const auto& [name, value] : settings.values) {
         const std::string where = placeOf(settings, name);
         set(info, requireKey(info, name, where), value, where);
     }
     for (const auto& [name, word] : settings.texts) {
         const std::string where = placeOf(settings, name);
-        mChoices[name] = findChoice(info, requireKey(info, name, where), word, where);
+        const ModuleKey& key = requireKey(info, name, where);
+        if (!key.isText) mChoices[name] = findChoice(info, key, word, where);
     }
 }
 
@@ -104,6 +115,39 @@ void ModuleValues::set(const ModuleInfo& info, const ModuleKey& key,
     const double largest = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
     const dvec3 unit = glm::normalize(dvec3(value[0], value[1], value[2]) / largest);
     stored = {unit.x, unit.y, unit.z};
+}
+
+scene::FieldPlacement ModuleValues::field() const {
+    return {.source = {text("file"), text("grid"), static_cast<int>(number("gridIndex"))},
+            .position = vector("position"),
+            .scale = number("scale"),
+            .where = mFileWhere};
+}
+
+std::vector<ModuleKey> withFieldKeys(std::vector<ModuleKey> keys) {
+    keys.insert(keys.begin(),
+                {{.name = "file", .unit = "text", .summary = "a .vdb file", .isText = true},
+                 {.name = "grid", .unit = "text", .summary = "name of the grid", .isText = true},
+                 {.name = "gridIndex",
+                  .unit = "1",
+                  .summary = "which of several grids of that name; -1: the only one",
+                  .fallback = {-1},
+                  .lo = -1,
+                  .hi = 1e6,
+                  .isInteger = true},
+                 {.name = "position",
+                  .unit = "m",
+                  .summary = "of the file's origin",
+                  .fallback = {0, 0, 0},
+                  .lo = -1e6,
+                  .hi = 1e6},
+                 {.name = "scale",
+                  .unit = "1",
+                  .summary = "of the file's lengths",
+                  .fallback = {1},
+                  .lo = 1e-6,
+                  .hi = 1e6}});
+    return keys;
 }
 
 dvec3 ModuleValues::vector(const std::string& key) const {
@@ -147,6 +191,9 @@ void addModules(const std::vector<scene::ModuleSettings>& settings, ModuleSums& 
         found->add(ModuleValues(found->info, one), sums);
     }
     // Rates of drag become shares of their sum.
+    for (std::uint32_t i = 0; i < sums.parameters->velocityFieldCount; ++i)
+        if (sums.dragRate > 0)
+            sums.parameters->velocityField[i].weight /= static_cast<float>(sums.dragRate);
     for (std::uint32_t i = 0; i < sums.parameters->vortexCount; ++i)
         if (sums.dragRate > 0)
             sums.parameters->vortex[i].weight /= static_cast<float>(sums.dragRate);

@@ -7,6 +7,7 @@
 
 #include <shaders/particles/effect.h>
 #include <core/math.hpp>
+#include <particles/fields.hpp>
 #include <scene/effect.hpp>
 
 #include <string>
@@ -25,6 +26,7 @@ struct ModuleKey {
     bool isInteger = false;
     bool isDirection = false;           ///< a vector of any length but zero; made a unit vector
     std::vector<std::string> choices;   ///< the words allowed, the default first; else empty
+    bool isText = false;                ///< any text, required: a file, or a name in it
 };
 
 struct ModuleInfo {
@@ -45,6 +47,9 @@ class ModuleValues {
     dvec3 vector(const std::string& key) const;
     /// Position among the key's choices.
     std::uint32_t choice(const std::string& key) const { return mChoices.at(key); }
+    const std::string& text(const std::string& key) const { return mTexts.at(key); }
+    /// What the keys of withFieldKeys() say.
+    scene::FieldPlacement field() const;
     const std::string& where() const { return mWhere; }
 
   private:
@@ -53,7 +58,9 @@ class ModuleValues {
 
     std::map<std::string, std::vector<double>> mValues;
     std::map<std::string, std::uint32_t> mChoices;
+    std::map<std::string, std::string> mTexts;
     std::string mWhere;
+    std::string mFileWhere;
 };
 
 /// What the modules of an effect add up to. Drag rates add; the wind is their mean, weighted by
@@ -64,7 +71,12 @@ struct ModuleSums {
     dvec3 dragRateTimesWind{0};                      ///< m/s^2
     std::vector<dvec3> noiseDrifts;                  ///< m/s, of each curl_noise
     shader::EffectParameters* parameters = nullptr;  ///< takes the fields
+    const scene::Effect* effect = nullptr;           ///< for its grids
+    FieldPacker* fields = nullptr;                   ///< takes the values of grids
 };
+
+/// The keys of a module that samples a grid of a VDB file, before its own.
+std::vector<ModuleKey> withFieldKeys(std::vector<ModuleKey> keys);
 
 /// Throws an input Error if `count` modules are all that an effect can have of this kind.
 void checkModuleCount(const ModuleValues& values, const char* kind, std::uint32_t count);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <core/frame_path.hpp>
+
 #include <fmt/format.h>
 
-#include <app/commands/render.hpp>
+#include <algorithm>
 #include <cctype>
+#include <string>
 
-namespace brume::app {
+namespace brume {
 namespace {
 
 /// Where in `name` the number goes, and how many digits it has at least.
@@ -32,12 +35,20 @@ Slot findPercent(const std::string& name) {
     return {};
 }
 
+Slot findSlot(const std::string& name) {
+    const Slot hashes = findHashes(name);
+    return hashes.begin != std::string::npos ? hashes : findPercent(name);
+}
+
 }  // namespace
+
+bool hasFrameNumber(const std::filesystem::path& pattern) {
+    return findSlot(pattern.filename().string()).begin != std::string::npos;
+}
 
 std::filesystem::path makeFramePath(const std::filesystem::path& pattern, int frame) {
     std::string name = pattern.filename().string();
-    Slot slot = findHashes(name);
-    if (slot.begin == std::string::npos) slot = findPercent(name);
+    Slot slot = findSlot(name);
     if (slot.begin == std::string::npos) {
         const std::string stem = pattern.stem().string();
         name = fmt::format("{}_{}", stem, name.substr(stem.size()));
@@ -47,4 +58,4 @@ std::filesystem::path makeFramePath(const std::filesystem::path& pattern, int fr
     return pattern.parent_path() / name;
 }
 
-}  // namespace brume::app
+}  // namespace brume

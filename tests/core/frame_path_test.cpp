@@ -2,10 +2,17 @@
 // Numbered file names.
 #include <gtest/gtest.h>
 
-#include <app/commands/render.hpp>
+#include <core/frame_path.hpp>
 
-namespace brume::app {
+namespace brume {
 namespace {
+
+TEST(FramePath, PlacesForNumbers_AreFound) {
+    EXPECT_TRUE(hasFrameNumber("smoke_%04d.vdb"));
+    EXPECT_TRUE(hasFrameNumber("shots/smoke.####.vdb"));
+    EXPECT_FALSE(hasFrameNumber("shots##/smoke.vdb"));
+    EXPECT_FALSE(hasFrameNumber("100%.vdb"));
+}
 
 TEST(FramePath, Hashes_BecomeTheNumberWithThatManyDigits) {
     EXPECT_EQ(makeFramePath("out/plume.####.exr", 7), "out/plume.0007.exr");
@@ -31,4 +38,4 @@ TEST(FramePath, PatternInTheFolder_IsNotTouched) {
 }
 
 }  // namespace
-}  // namespace brume::app
+}  // namespace brume

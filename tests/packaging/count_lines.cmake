@@ -1,0 +1,12 @@
+# Counts the lines of a file that say something: -DFILE=x -DMOST=39
+file(STRINGS ${FILE} lines)
+set(count 0)
+foreach(line IN LISTS lines)
+  if(line MATCHES "[^ {}]" AND NOT line MATCHES "^ *//" AND NOT line MATCHES "^ *#")
+    math(EXPR count "${count} + 1")
+  endif()
+endforeach()
+message(STATUS "${FILE}: ${count} lines")
+if(count GREATER MOST)
+  message(FATAL_ERROR "${count} lines, allowed are ${MOST}")
+endif()
