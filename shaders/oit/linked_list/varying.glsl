@@ -204,10 +204,13 @@ void addLights(inout Nodes nodes, Scatterers scatterers, Step step) {
 // `plane`: offset of the next voxel plane behind the step.
 Nodes evaluateNodes(float phase, Step step, out float plane) {
     Nodes nodes;
-    vec3 solidExtinction = kSurfaces ? state.solids.extinctionHi + state.solids.extinctionLo : vec3(0);
+    vec3 solidExtinction =
+        kSurfaces ? state.solids.extinctionHi + state.solids.extinctionLo : vec3(0);
     vec3 solids = kSurfaces ? state.solids.sourceHi + state.solids.sourceLo : vec3(0);
     nodes.share = 0.0;
-    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) nodes.extinction[k] = nodes.source[k] = vec3(0);
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+        nodes.extinction[k] = nodes.source[k] = vec3(0);
+    }
     for (bool isFirst = true;; isFirst = false) {
         Gathered sum = gatherOpen(phase, step);
         float first = isFirst ? 1.0 : 0.0;
