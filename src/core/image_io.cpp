@@ -178,10 +178,13 @@ void writePixels(const std::filesystem::path& file, const Image& image, const ch
     OIIO::ImageSpec spec(image.width, image.height, 3,
                          isFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
     spec["oiio:ColorSpace"] = isFloat ? "Linear" : "sRGB";
-    if (isFloat)
+    if (isFloat) {
         spec["compression"] = "zip";
-    else
+        // The writer would put in the time: the same picture shall be the same bytes.
+        spec["DateTime"] = "1970:01:01 00:00:00";
+    } else {
         spec["ImageDescription"] = kToneCurveText;
+    }
     bool isWritten = output->open(file.string(), spec);
     if (isWritten && isFloat)
         isWritten = output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());

@@ -50,7 +50,7 @@ class RenderSequence : public testing::Test {
                                      std::vector<std::string> arguments) const {
         fs::create_directories(mFolder / folder);
         arguments.insert(arguments.begin(), {"render", path("scene.json"), "--method",
-                                             "linked_list", "-o", path(folder + "/f.###.png")});
+                                             "linked_list", "-o", path(folder + "/f.###.exr")});
         return arguments;
     }
     Outcome render(const std::string& folder, const std::vector<std::string>& arguments) const {
@@ -90,25 +90,25 @@ TEST_F(RenderSequence, SingleFrame_IsThatOfTheSequence) {
     EXPECT_EQ(render("whole", {"--frames", "12:13"}).exitCode, 0);
     EXPECT_EQ(render("one", {"--frame", "13"}).exitCode, 0);
     // Without --frames the name is taken as it stands.
-    EXPECT_EQ(read("one").at("f.###.png"), read("whole").at("f.013.png"));
+    EXPECT_EQ(read("one").at("f.###.exr"), read("whole").at("f.013.exr"));
 }
 
 TEST_F(RenderSequence, KilledRun_LeavesWholeFramesAndGoesOn) {
     EXPECT_EQ(render("whole", {"--frames", "1:40"}).exitCode, 0);
     const Outcome killed = runBrumeUntil(command("killed", {"--frames", "1:40"}),
-                                         [&] { return fs::exists(mFolder / "killed/f.003.png"); });
+                                         [&] { return fs::exists(mFolder / "killed/f.003.exr"); });
     ASSERT_GE(killed.exitCode, 128) << "it was done before it was killed";
     const auto whole = read("whole");
     std::size_t done = 0;
     for (const auto& [name, bytes] : read("killed")) {
-        if (fs::path(name).extension() != ".png") continue;
+        if (fs::path(name).extension() != ".exr") continue;
         EXPECT_EQ(bytes, whole.at(name)) << name;
         ++done;
     }
     EXPECT_LT(done, whole.size());
-    const auto first = fs::last_write_time(mFolder / "killed/f.001.png");
+    const auto first = fs::last_write_time(mFolder / "killed/f.001.exr");
     EXPECT_EQ(render("killed", {"--frames", "1:40", "--resume"}).exitCode, 0);
-    EXPECT_EQ(fs::last_write_time(mFolder / "killed/f.001.png"), first);
+    EXPECT_EQ(fs::last_write_time(mFolder / "killed/f.001.exr"), first);
     for (const auto& [name, bytes] : whole) EXPECT_EQ(read("killed").at(name), bytes) << name;
 }
 
@@ -124,7 +124,7 @@ TEST_F(RenderSequence, VolumesFollowTheFrame) {
         fs::copy_file(fire, mFolder / name);
     EXPECT_EQ(render("still", {}).exitCode, 0);  // frame 0
     EXPECT_EQ(render("moving", {"--frames", "2:3"}).exitCode, 0);
-    EXPECT_EQ(read("moving").at("f.002.png"), read("still").at("f.###.png"));
+    EXPECT_EQ(read("moving").at("f.002.exr"), read("still").at("f.###.exr"));
     const Outcome outcome = render("missing", {"--frames", "3:4"});
     EXPECT_EQ(outcome.exitCode, 2);
     EXPECT_NE(outcome.err.find("smoke.14.vdb"), std::string::npos) << outcome.err;
