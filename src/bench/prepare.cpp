@@ -15,18 +15,6 @@ double largestExtinction(const scene::Medium& medium) {
     return std::max({medium.extinction.x, medium.extinction.y, medium.extinction.z});
 }
 
-void addSceneSpheres(render::PreparedScene& prepared) {
-    for (const scene::Sphere& sphere : prepared.scene.spheres) {
-        scene::MediumSphere& added = prepared.spheres.emplace_back();
-        added.center = sphere.center;
-        added.radius = static_cast<float>(sphere.radius);
-        added.density = static_cast<float>(sphere.density);
-        added.medium = sphere.medium;
-        added.id = static_cast<std::uint32_t>(prepared.spheres.size() - 1);
-        added.profile = sphere.profile;
-    }
-}
-
 void addVolume(scene::Volume volume, int frame, const Log& log, render::PreparedScene& prepared) {
     if (hasFrameNumber(volume.file))
         volume.file = makeFramePath(volume.file, frame + volume.frameOffset);
@@ -64,7 +52,7 @@ void prepareEffects(scene::Scene& scene) {
 render::PreparedScene prepareScene(scene::Scene scene, const Log& log, int frame) {
     render::PreparedScene prepared;
     prepared.scene = std::move(scene);
-    addSceneSpheres(prepared);
+    prepared.spheres = scene::makeMediumSpheres(prepared.scene.spheres);
     prepareEffects(prepared.scene);
     for (const scene::Volume& volume : prepared.scene.volumes)
         addVolume(volume, frame, log, prepared);

@@ -71,15 +71,7 @@ void Model::adoptScene(scene::Scene scene) {
     mEffectIds.clear(), mEffectRadii.clear(), mSpheres.clear();
     for (std::size_t i = 0; i < mPrepared.scene.media.size(); ++i) mMediumIds.push_back(nextId());
     for (std::size_t i = 0; i < mPrepared.scene.lights.size(); ++i) mLightIds.push_back(nextId());
-    for (const scene::Sphere& sphere : mPrepared.scene.spheres) {
-        scene::MediumSphere& added = mPrepared.spheres.emplace_back();
-        added.center = sphere.center;
-        added.radius = static_cast<float>(sphere.radius);
-        added.density = static_cast<float>(sphere.density);
-        added.medium = sphere.medium;
-        added.id = static_cast<std::uint32_t>(mPrepared.spheres.size() - 1);
-        added.profile = sphere.profile;
-    }
+    mPrepared.spheres = scene::makeMediumSpheres(mPrepared.scene.spheres);
     for (const scene::Volume& volume : mPrepared.scene.volumes) addVolumeOf(volume);
     if (!mPrepared.spheres.empty()) mSpheres.push_back({nextId(), 0, mPrepared.spheres.size()});
     BrumeId id = 0;

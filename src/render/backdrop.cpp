@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <oit/bindings.hpp>
 #include <render/backdrop.hpp>
+#include <render/opaque_targets.hpp>
 
 #include <spv/common/screen.vert.hpp>
 #include <spv/render/composite.frag.hpp>
@@ -12,9 +13,6 @@ namespace {
 using frame::Access;
 using gpu::BindingType;
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 gpu::ColorTarget withoutAlpha(VkFormat format) {
     gpu::ColorTarget target{format, {}};
@@ -48,16 +46,8 @@ Backdrop::Backdrop(gpu::Device& device, VkFormat colorFormat)
 
 frame::ImageRef Backdrop::declareImport(frame::FrameBuilder& frame, oit::Inputs& inputs,
                                         frame::ImageRef color, frame::ImageRef depth) const {
-    const auto makeTarget = [&](const char* name, VkFormat format) {
-        return frame.createImage({.name = name,
-                                  .format = format,
-                                  .width = inputs.extent.width,
-                                  .height = inputs.extent.height,
-                                  .usage = 0});
-    };
-    inputs.opaqueColor = makeTarget("render.opaque_color", kColorFormat);
-    inputs.opaqueT = makeTarget("render.opaque_t", kDistanceFormat);
-    const frame::ImageRef reversed = makeTarget("render.depth", kDepthFormat);
+    createOpaqueTargets(frame, inputs);
+    const frame::ImageRef reversed = createOpaqueDepth(frame, inputs);
     frame.addPass("render.import")
         .reads(color, Access::FragmentSample)
         .reads(depth, Access::FragmentSample)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <oit/bindings.hpp>
 #include <render/opaque_pass.hpp>
+#include <render/opaque_targets.hpp>
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
@@ -15,9 +16,6 @@ namespace {
 
 using frame::Access;
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kDistanceFormat = VK_FORMAT_R32_SFLOAT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 void drawMeshes(gpu::Commands& commands, const oit::Inputs& inputs,
                 const std::vector<oit::SurfaceDraw>& draws, bool pushesMesh) {
@@ -58,15 +56,7 @@ OpaquePass::OpaquePass(gpu::Device& device, const oit::Needs& needs)
 
 void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                          oit::Inputs& inputs) const {
-    const auto makeTarget = [&](const char* name, VkFormat format) {
-        return frame.createImage({.name = name,
-                                  .format = format,
-                                  .width = inputs.extent.width,
-                                  .height = inputs.extent.height,
-                                  .usage = 0});
-    };
-    inputs.opaqueColor = makeTarget("render.opaque_color", kColorFormat);
-    inputs.opaqueT = makeTarget("render.opaque_t", kDistanceFormat);
+    createOpaqueTargets(frame, inputs);
     frame.addPass("render.background")
         .color(inputs.opaqueColor, gpu::LoadOp::DontCare)
         .color(inputs.opaqueT, gpu::LoadOp::DontCare)
@@ -77,7 +67,7 @@ void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
             commands.draw(3);
         });
     if (scene.opaqueMeshes().empty()) return;
-    declareMeshes(frame, scene, inputs, makeTarget("render.depth", kDepthFormat),
+    declareMeshes(frame, scene, inputs, createOpaqueDepth(frame, inputs),
                   gpu::LoadOp::Clear);
 }
 

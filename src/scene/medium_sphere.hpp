@@ -19,4 +19,7 @@ struct MediumSphere {
     Profile profile = Profile::Constant;
 };
 
+/// The spheres of a scene file, with ids from 0 in their order.
+std::vector<MediumSphere> makeMediumSpheres(const std::vector<Sphere>& spheres);
+
 }  // namespace brume::scene
