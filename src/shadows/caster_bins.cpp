@@ -38,6 +38,9 @@ CasterBins::CasterBins(gpu::Device& device, const Casters& casters, CasterChoice
     const std::uint32_t opaque =
         choice == CasterChoice::Translucent ? 0 : casters.opaqueTriangleCount;
     const std::uint32_t translucent = withMedia ? casters.translucentTriangleCount : 0;
+    if (choice == CasterChoice::Translucent)
+        mProgress = makeUints(*mDevice, "shadow.bins.progress",
+                              mTileCount * shader::kMapTileSize * shader::kMapTileSize);
     mSets[0] = makeSet(shader::kCasterSphere, 0, withMedia ? casters.sphereCount : 0);
     mSets[1] = makeSet(shader::kCasterBox, 0, withMedia ? casters.boxCount : 0);
     mSets[2] = makeSet(shader::kCasterTriangle,
@@ -168,6 +171,31 @@ void CasterBins::allocate(shader::ShadowMap& map) {
     setAddresses(map);
 }
 
+void CasterBins::declareLengths(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
+                                frame::BufferRef spheres) {
+    declare(frame, mapBuffer, spheres);
+    for (Set& set : mSets) {
+        set.startsRead = {*mDevice,
+                          {.name = "shadow.bins.starts_read",
+                           .bytes = set.starts.bytes(),
+                           .memory = gpu::MemoryKind::Readback}};
+        frame.addReadback("shadow.bins_read", frame.importBuffer(set.starts), set.startsRead);
+    }
+}
+
+ListLengths CasterBins::longestLists() const {
+    constexpr std::uint32_t kGuess = 1024;
+    const auto longest = [&](const Set& set) -> std::uint64_t {
+        if (!set.startsRead) return std::min(set.count, kGuess);
+        const auto starts = set.startsRead.mappedAs<std::uint32_t>();
+        std::uint32_t most = 0;
+        for (std::size_t tile = 0; tile < mTileCount; ++tile)
+            most = std::max(most, starts[tile + 1] - starts[tile]);
+        return most;
+    };
+    return {longest(mSets[0]), longest(mSets[1])};
+}
+
 void CasterBins::reserve(shader::ShadowMap& map, std::uint32_t pairs) {
     mIsReserved = true;
     for (Set& set : mSets) {
@@ -241,7 +269,7 @@ void CasterBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pa
 }
 
 std::uint64_t CasterBins::bytes() const {
-    std::uint64_t sum = 0;
+    std::uint64_t sum = mProgress.bytes();
     for (const Set& set : mSets) {
         for (const gpu::Buffer* buffer : {&set.orderKeys, &set.order, &set.counts, &set.sums,
                                           &set.tiles, &set.casters, &set.starts})

@@ -17,6 +17,11 @@ namespace brume::shadows {
 /// Which casters a map has.
 enum class CasterChoice { Opaque, Translucent, All };
 
+/// The most casters that a tile has.
+struct ListLengths {
+    std::uint64_t spheres = 0, boxes = 0;
+};
+
 /// Casters sorted by distance, then pairs of tile and caster sorted by tile: no atomics, so that
 /// every list is the same in every run and whatever the order of submission.
 class CasterBins {
@@ -28,6 +33,13 @@ class CasterBins {
     void declareCount(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
                       frame::BufferRef spheres);
     void allocate(shader::ShadowMap& map);
+    /// Adds declare() and reads the lists' lengths back: after that frame longestLists() are known.
+    void declareLengths(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
+                        frame::BufferRef spheres);
+    /// After reserve() a guess: nobody waits to know.
+    ListLengths longestLists() const;
+    /// uint per texel of the map, for passes in rounds.
+    const gpu::Buffer& progress() const { return mProgress; }
     /// Instead of counting first: room for that many pairs of each kind of caster. Frames then sort
     /// what the newest finished frame had and half as much again; what does not fit casts no shadow
     /// and is counted.
@@ -46,7 +58,7 @@ class CasterBins {
         std::uint32_t kind = 0, first = 0, count = 0;
         std::uint32_t pairCount = 0;  // there is room for
         gpu::Buffer orderKeys, order, counts, sums, total;
-        gpu::Buffer tiles, casters, starts;
+        gpu::Buffer tiles, casters, starts, startsRead;
         gpu::ComputePipeline identity, distance, count_, write;
         std::unique_ptr<gpu::RadixSort> orderSort, pairSort;
     };
@@ -66,6 +78,7 @@ class CasterBins {
     bool mIsReserved = false;
     gpu::PrefixSum mPrefixSum;
     gpu::ComputePipeline mStarts;
+    gpu::Buffer mProgress;
     std::array<Set, 3> mSets;  // spheres, boxes, triangles
 };
 

@@ -31,7 +31,8 @@ class Fourier final : public ShadowStore {
         map.texels = mCoefficients.deviceAddress();
     }
     void declare(frame::FrameBuilder& frame, const MapBuild& build) const override {
-        declareTexels(frame, "shadow.fourier.build", build, mBuild, mCoefficients);
+        declareWalk(frame, "shadow.fourier.build", build, mBuild, mCoefficients,
+                    mCoefficientCount / 2);
     }
     std::uint64_t bytes() const override { return mCoefficients.bytes(); }
 

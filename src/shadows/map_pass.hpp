@@ -20,6 +20,12 @@ void bindCasters(gpu::Commands& commands, const Casters& casters);
 void declareTexels(frame::FrameBuilder& frame, const std::string& name, const MapBuild& build,
                    const gpu::ComputePipeline& pipeline, const gpu::Buffer& target);
 
+/// The same for a pipeline that includes shaders/shadows/common/walk.glsl, in as many rounds as the
+/// longest lists need. `turns`: of loops per piece of a caster, at most.
+void declareWalk(frame::FrameBuilder& frame, const std::string& name, const MapBuild& build,
+                 const gpu::ComputePipeline& pipeline, const gpu::Buffer& target,
+                 std::uint32_t turns);
+
 std::uint64_t texelCount(const shader::ShadowMap& map);
 
 }  // namespace brume::shadows

@@ -152,6 +152,9 @@ void Shadows::prepare(gpu::Submitter& submitter, const MeasureFunction& measure)
     for (Map* map : maps) map->bins->allocate(map->data);
     linkOpaqueMaps();
     uploadMaps();
+    measure([&](frame::FrameBuilder& frame, frame::BufferRef spheres) {
+        for (Map* map : maps) map->bins->declareLengths(frame, map->buffer, spheres);
+    });
 }
 
 std::vector<Shadows::Map*> Shadows::allMaps() const {

@@ -66,7 +66,8 @@ void StochasticMap::allocate(shader::ShadowMap& map) {
 }
 
 void StochasticMap::declare(frame::FrameBuilder& frame, const MapBuild& build) const {
-    declareTexels(frame, "shadow.stochastic.build", build, mBuild, mDepths);
+    declareWalk(frame, "shadow.stochastic.build", build, mBuild, mDepths,
+                mSettings.samples * (1 + build.map->channels));
 }
 
 namespace stochastic {

@@ -21,7 +21,7 @@ void TotalMap::allocate(shader::ShadowMap& map) {
 }
 
 void TotalMap::declare(frame::FrameBuilder& frame, const MapBuild& build) const {
-    declareTexels(frame, "shadow.total.build", build, mBuild, mTotals);
+    declareWalk(frame, "shadow.total.build", build, mBuild, mTotals, 0);
 }
 
 namespace total {

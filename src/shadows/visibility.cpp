@@ -6,7 +6,7 @@
 // Differs: casters come from lists sorted by distance and identity, so that the curve does not
 //         depend on the order of submission; nodes keep the optical depth on both sides (a surface
 //         is one node, a homogeneous medium two, both exact); channels share their nodes; the
-//         curve is made with 16 nodes more than are kept; squared error, not area; a step may also
+//         curve is made with 4 nodes more than are kept; squared error, not area; a step may also
 //         be moved to a neighbour.
 // Limits: fewer nodes than the curve has steps and bends: the least important ones are smoothed.
 // Cost:   4 K (1 + 2 c) bytes per texel with c channels; 4 K reads per lit point.
@@ -17,7 +17,8 @@
 namespace brume::shadows::visibility {
 namespace {
 
-constexpr std::uint32_t kSpareNodes = 16;
+constexpr std::uint32_t kSpareNodes = 4;
+constexpr std::uint32_t kTurnsPerPiece = 8;
 
 class Visibility final : public ShadowStore {
   public:
@@ -38,7 +39,7 @@ class Visibility final : public ShadowStore {
         map.texels = mCurves.deviceAddress();
     }
     void declare(frame::FrameBuilder& frame, const MapBuild& build) const override {
-        declareTexels(frame, "shadow.visibility.build", build, mBuild, mCurves);
+        declareWalk(frame, "shadow.visibility.build", build, mBuild, mCurves, kTurnsPerPiece);
     }
     std::uint64_t bytes() const override { return mCurves.bytes(); }
 

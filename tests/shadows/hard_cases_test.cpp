@@ -100,6 +100,23 @@ TEST_F(ShadowHardCases, CasterAroundASpot_IsNotClippedNearIt) {
     expectSane(s, scatterPoints(3, 1000, dvec3(-0.4, -0.5, -0.4), dvec3(0.4, 0.5, 0.4)), 0.02);
 }
 
+// Some devices end loops silently after 65 535 turns.
+TEST_F(ShadowHardCases, ThousandsOfParticlesPerTexel_AllCount) {
+    TestScene s;
+    addSun(s, "exact", dvec3(0.02, -1, 0.01));
+    const std::uint32_t smoke = s.addMedium(1.0);
+    Random random(5);
+    for (int i = 0; i < 3000; ++i)
+        s.addSphere(smoke, random.vector(-0.3, 0.3), 0.5, scene::Profile::Smooth, 2e-3);
+    const std::vector<dvec3> points =
+        scatterPoints(3, 50, dvec3(-0.2, -1.2, -0.2), dvec3(0.2, -0.9, 0.2));
+    for (const char* store : {"exact", "visibility", "total", "fourier"}) {
+        SCOPED_TRACE(store);
+        s.scene.lights[0].shadow = store;
+        EXPECT_LE(measureError(s, points, {{"resolution", "32"}}).max, 7e-3);
+    }
+}
+
 TEST_F(ShadowHardCases, GrazingLightOnAFloor_HasNoAcne) {
     TestScene s(24, 24);
     s.scene.camera.position = dvec3(0, 3, 0);

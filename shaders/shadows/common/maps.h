@@ -95,6 +95,10 @@ BRUME_CONST uint kSharedVolumes = 4u;
 BRUME_CONST uint kTriangleIds = 0x80000000u;
 BRUME_CONST uint kSolidIds = 0xc0000000u;
 
+// Turns of loops after which an invocation that builds a map leaves the rest to the next round.
+// Some devices end loops silently after 65 535 turns, counted over eight invocations together.
+BRUME_CONST uint kTurnsPerRound = 7000u;
+
 BRUME_CONST uint kMaxSolidHits = 16u;  // front and back faces of solids along one ray
 
 struct ShadowPush {

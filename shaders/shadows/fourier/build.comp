@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ShadowPush push; };
-layout(buffer_reference, scalar) writeonly buffer Coefficients { float at[]; };
+layout(buffer_reference, scalar) buffer Coefficients { float at[]; };
 
 const uint kMaxCoefficients = 15u;
 const float kTwoPi = 6.283185307179586;
@@ -24,12 +24,15 @@ void takePiece(float t0, float t1, vec3 depth, uint id) {
         float spread = half_ > 1e-3 ? sin(half_) / half_ : 1.0;
         coefficients[2u * k - 1u] += (2.0 * cos(w * middle) * spread) * depth;
         coefficients[2u * k] += (2.0 * sin(w * middle) * spread) * depth;
+        ++shadowIterations;
     }
 }
 
 void takeSurface(float t, vec3 transmittance, uint id) {
     takePiece(t, t, -log(max(transmittance, vec3(1e-6))), id);
 }
+
+void finishCaster(bool isLast) {}
 
 #include "../common/walk.glsl"
 
@@ -38,10 +41,16 @@ void main() {
     BuildTexel b = findBuildTexel(map, gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x,
                                   gl_LocalInvocationIndex);
     if (!b.isInside) return;
+    uint from = beginRound(push, b.index);
+    if (from == kAllCasters) return;
     for (uint i = 0u; i < kMaxCoefficients; ++i) coefficients[i] = vec3(0);
-    walkCasters(map, b.tile, mapRay(map, b.face, vec2(b.texel) + 0.5));
+    uint next =
+        walkCasters(map, b.tile, mapRay(map, b.face, vec2(b.texel) + 0.5), from, false);
     for (uint i = 0u; i < map.count; ++i)
-        for (uint c = 0u; c < map.channels; ++c)
-            Coefficients(push.target).at[(b.index * map.count + i) * map.channels + c] =
-                coefficients[i][c];
+        for (uint c = 0u; c < map.channels; ++c) {
+            uint at = (b.index * map.count + i) * map.channels + c;
+            float before = from > 0u ? Coefficients(push.target).at[at] : 0.0;
+            Coefficients(push.target).at[at] = before + coefficients[i][c];
+        }
+    endRound(push, b.index, next);
 }

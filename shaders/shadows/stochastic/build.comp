@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ShadowPush push; };
-layout(buffer_reference, scalar) writeonly buffer Depths { float at[]; };
+layout(buffer_reference, scalar) buffer Depths { float at[]; };
 
 const uint kMaxSamples = 8u;
 ShadowMap map;
@@ -43,6 +43,7 @@ void takePiece(float t0, float t1, vec3 depth, uint id) {
     }
     vec3 before = crossed[slot], after = before + depth;
     crossed[slot] = after;
+    shadowIterations += map.count * (1u + map.channels);
     for (uint s = 0u; s < map.count; ++s) {
         float limit = -log(1.0 - fragmentNoise(id, s));  // depth at which this ray ends
         for (uint c = 0u; c < map.channels; ++c)
@@ -60,6 +61,8 @@ void takeSurface(float t, vec3 transmittance, uint id) {
     }
 }
 
+void finishCaster(bool isLast) {}
+
 #include "../common/walk.glsl"
 
 void main() {
@@ -67,10 +70,18 @@ void main() {
     texel = findBuildTexel(map, gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x,
                            gl_LocalInvocationIndex);
     if (!texel.isInside) return;
+    uint from = beginRound(push, texel.index);
+    if (from == kAllCasters) return;
     for (uint s = 0u; s < kMaxSamples; ++s) depths[s] = vec3(3.0e38);
     for (uint i = 0u; i <= kSharedVolumes; ++i) crossed[i] = vec3(0);
-    walkCasters(map, texel.tile, mapRay(map, texel.face, vec2(texel.texel) + 0.5));
+    // Bricks of a volume share what they have crossed: in one round.
+    uint next = walkCasters(map, texel.tile, mapRay(map, texel.face, vec2(texel.texel) + 0.5),
+                            from, true);
     for (uint s = 0u; s < map.count; ++s)
-        for (uint c = 0u; c < map.channels; ++c)
-            Depths(push.target).at[(texel.index * map.count + s) * map.channels + c] = depths[s][c];
+        for (uint c = 0u; c < map.channels; ++c) {
+            uint at = (texel.index * map.count + s) * map.channels + c;
+            float before = from > 0u ? Depths(push.target).at[at] : 3.0e38;
+            Depths(push.target).at[at] = min(before, depths[s][c]);
+        }
+    endRound(push, texel.index, next);
 }
