@@ -46,6 +46,7 @@ BRUME_CONST uint kBindingChildBatches = 21u;  // BirthBatch[] of the child
 // 22: kBindingFieldValues of field_grid.h
 BRUME_CONST uint kBindingStrands = 23u;       // uint[], before the tick; of effects with ribbons
 BRUME_CONST uint kBindingNewStrands = 24u;    // after it
+BRUME_CONST uint kBindingAppearance = 25u;    // AppearanceFrame, then AppearancePlace[]
 
 /// One tick, as the CPU knows it beforehand.
 ///
@@ -98,8 +99,19 @@ struct ChildPush {
     uint batchStride;  // of the child's batches, per instance
 };
 
-/// Push constants of the pass that writes the spheres.
-struct AppearancePush {
+/// How the pass that writes the spheres of all instances sees them; in a buffer for the reason
+/// given at Tick.
+struct AppearanceFrame {
+    uint instances;
+    uint capacity;  // of one instance
+    uint lastTick;
+    float sinceTick;         // ticks since the end of lastTick, [0, 1)
+    float sinceTickSeconds;  // the same in seconds
+    uint profile;
+};
+
+/// Where one instance appears.
+struct AppearancePlace {
     vec3 axisX;  // columns of the affine map from effect space to the camera's space
     vec3 axisY;
     vec3 axisZ;
@@ -107,19 +119,14 @@ struct AppearancePush {
     vec3 originLo;  // what rounding has taken from it
     float radiusScale;
     uint firstSphere;
-    uint lastTick;
     uint medium;
     uint firstId;
-    uint profile;
-    uint instance;
-    uint firstSlot;          // of the instance
-    float sinceTick;         // ticks since the end of lastTick, [0, 1)
-    float sinceTickSeconds;  // the same in seconds
 };
 
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(offsetof(brume::shader::AppearancePush, radiusScale) == 60);
+static_assert(sizeof(brume::shader::AppearanceFrame) == 24);
+static_assert(offsetof(brume::shader::AppearancePlace, radiusScale) == 60);
 #endif
 #endif

@@ -58,8 +58,8 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
                        {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,
                         kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres,
-                        kBindingFieldValues},
-                       sizeof(AppearancePush));
+                        kBindingFieldValues, kBindingAppearance},
+                       0);
     if (mEffect.subEmitterCount == 0) return;
     mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,
                          {kBindingTicks, kBindingRecordCounts, kBindingChildTotals}, kChildBytes);

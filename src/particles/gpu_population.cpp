@@ -50,16 +50,6 @@ std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& e
 /// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects.
 constexpr std::uint32_t kTicksPerPart = 128;
 
-/// Writes an array by way of the command buffer, which takes 64 KiB at a time.
-template <typename T>
-void updateArray(gpu::Commands& commands, const gpu::Buffer& buffer, const std::vector<T>& values) {
-    constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
-    for (std::size_t first = 0; first < values.size(); first += kPerUpdate) {
-        const std::size_t count = std::min(kPerUpdate, values.size() - first);
-        commands.updateBuffer(buffer, &values[first], count * sizeof(T), first * sizeof(T));
-    }
-}
-
 template <typename T>
 gpu::Buffer makeFilledBuffer(gpu::Device& device, const std::string& name,
                              std::span<const T> values) {
@@ -132,6 +122,10 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     mRecords = makeBuffer(device, "particles.records", records * sizeof(shader::BirthBatch));
     mRecordCounts = makeBuffer(device, "particles.record_counts",
                                mEffect.subEmitterCount * chunks * sizeof(shader::RecordCount));
+    mAppearanceData =
+        makeBuffer(device, "particles.appearance",
+                   sizeof(shader::AppearanceFrame) +
+                       mInstanceCount * std::uint64_t{sizeof(shader::AppearancePlace)});
     mBatches = makeBuffer(device, "particles.batches", mBatchCapacity * sizeof(shader::BirthBatch));
     mParameters = makeFilledBuffer<shader::EffectParameters>(device, "particles.parameters",
                                                              {&mEffect.parameters, 1});
@@ -175,6 +169,7 @@ const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
         case shader::kBindingFieldValues: return &mFieldValues;
         case shader::kBindingRecords: return &mRecords;
         case shader::kBindingRecordCounts: return &mRecordCounts;
+        case shader::kBindingAppearance: return &mAppearanceData;
         default: return nullptr;
     }
 }
@@ -201,7 +196,8 @@ std::uint64_t GpuPopulation::bytes() const {
     std::uint64_t sum = 0;
     for (const gpu::Buffer* buffer :
          {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles,
-          &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts})
+          &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts,
+          &mAppearanceData})
         sum += buffer->bytes();
     return sum;
 }
@@ -273,12 +269,12 @@ void GpuPopulation::recordClear(gpu::Commands& commands, std::uint64_t tick) con
     totals.counters.born = static_cast<std::uint32_t>(mEffect.schedule.birthsBefore(tick));
     totals.counters.died = totals.counters.born;
     commands.computeTransferBarrier();
-    updateArray(commands, mTotals, std::vector(mInstanceCount, totals));
+    commands.updateArray<shader::TickTotals>(mTotals, std::vector(mInstanceCount, totals));
 }
 
 void GpuPopulation::recordUpload(gpu::Commands& commands, const TickPart& part) const {
-    updateArray(commands, mTicks, part.ticks);
-    updateArray(commands, mBatches, part.batches);
+    commands.updateArray<shader::Tick>(mTicks, part.ticks);
+    commands.updateArray<shader::BirthBatch>(mBatches, part.batches);
 }
 
 void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,
@@ -315,15 +311,6 @@ void GpuPopulation::recordChildren(gpu::Commands& commands, const shader::Tick& 
     };
     dispatch(mChildOffsets, mInstanceCount);
     dispatch(mChildBatches, std::uint64_t{tick.chunks} * mInstanceCount);
-}
-
-void GpuPopulation::recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
-                                     const shader::AppearancePush& push) const {
-    bindAll(commands, mAppearance);
-    commands.bind(shader::kBindingParticleSpheres, spheres);
-    commands.pushConstants(push);
-    commands.dispatchThreads(slotCount(), mWorkgroupSize);
-    commands.computeBarrier();
 }
 
 std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
@@ -367,11 +354,8 @@ void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t inst
     }
     submitter.submitAndWait("particles.restore", [&](gpu::Commands& commands) {
         const auto write = [&]<typename T>(std::size_t field, const std::vector<T>& values) {
-            constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
-            for (std::size_t i = 0; i < values.size(); i += kPerUpdate)
-                commands.updateBuffer(mStates[mCurrent], &values[i],
-                                      std::min(kPerUpdate, values.size() - i) * sizeof(T),
-                                      offsets[field] + (first + i) * sizeof(T));
+            commands.updateArray<T>(mStates[mCurrent], values,
+                                    offsets[field] + first * sizeof(T));
         };
         write(0, positions);
         write(1, velocities);

@@ -56,8 +56,10 @@ class GpuPopulation {
     /// Makes what the tick's step has listed the births of the child's tick.
     void recordChildren(gpu::Commands& commands, const shader::Tick& tick, std::uint32_t slot,
                         GpuPopulation& child) const;
+    /// Writes slotCount() spheres of each instance; `places`: one per instance.
     void recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
-                          const shader::AppearancePush& push) const;
+                          const shader::AppearanceFrame& frame,
+                          std::span<const shader::AppearancePlace> places) const;
 
     /// Also the strands, if the effect keeps them.
     std::vector<Particle> readParticles(gpu::Submitter& submitter, std::uint32_t instance,
@@ -99,6 +101,7 @@ class GpuPopulation {
     gpu::Buffer mBatches, mTicks;
     gpu::Buffer mChunks, mGroups, mTotals;
     gpu::Buffer mRecords, mRecordCounts;
+    gpu::Buffer mAppearanceData;
     gpu::ComputePipeline mCount, mOffsets, mTotalsPass, mStep, mAppearance;
     gpu::ComputePipeline mChildOffsets, mChildBatches;
 };

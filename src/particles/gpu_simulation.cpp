@@ -69,34 +69,6 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     commands.endLabel();
 }
 
-void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& appearance) {
-    const GpuPopulation& population = *mPopulations[appearance.population];
-    if (population.slotCount() == 0) return;
-    const CompiledEffect& compiled = population.effect();
-    const dmat4& m = appearance.worldFromEffect;
-    shader::AppearancePush push{};
-    push.axisX = vec3(dvec3(m[0]));
-    push.axisY = vec3(dvec3(m[1]));
-    push.axisZ = vec3(dvec3(m[2]));
-    const dvec3 origin = dvec3(m[3]) - appearance.cameraPosition;
-    push.origin = vec3(origin);
-    push.originLo = vec3(origin - dvec3(push.origin));
-    push.radiusScale = static_cast<float>(lengthScale(m));
-    push.firstSphere = appearance.firstSphere;
-    push.lastTick = static_cast<std::uint32_t>(mTick - 1);
-    push.medium = appearance.medium;
-    push.firstId = appearance.firstId;
-    push.profile = static_cast<std::uint32_t>(compiled.profile);
-    push.instance = appearance.instance;
-    push.firstSlot = appearance.instance * compiled.capacity;
-    push.sinceTick = static_cast<float>(mSinceTick);
-    push.sinceTickSeconds = static_cast<float>(mSinceTick / compiled.tickRate);
-
-    commands.beginLabel("particles.appearance");
-    population.recordAppearance(commands, *appearance.spheres, push);
-    commands.endLabel();
-}
-
 std::vector<CompiledEffect> GpuSimulation::effects() const {
     std::vector<CompiledEffect> effects;
     for (const auto& population : mPopulations) effects.push_back(population->effect());

@@ -39,21 +39,21 @@ class GpuSimulation {
         return mPopulations[population]->slotCount();
     }
 
-    /// Where and how the particles of a population of an instance appear.
+    /// Where and how a population of an instance appears.
     struct Appearance {
         dmat4 worldFromEffect{1};
-        dvec3 cameraPosition{0};  ///< world; the spheres' centres are relative to it
         std::uint32_t medium = 0;
-        std::uint32_t firstId = 0;             ///< sphere id = firstId + birth index
-        const gpu::Buffer* spheres = nullptr;  ///< of shader::SphereData
-        std::uint32_t firstSphere = 0;         ///< fills [firstSphere, firstSphere + slotCount())
-        std::uint32_t population = 0;
-        std::uint32_t instance = 0;  ///< index among those of the constructor
+        std::uint32_t firstId = 0;      ///< sphere id = firstId + birth index
+        std::uint32_t firstSphere = 0;  ///< fills [firstSphere, firstSphere + slotCount())
     };
 
-    /// Writes all slots, at the time of the last recordAdvanceTo() or at the end of the last tick;
-    /// those without a particle get radius 0. Records nothing if there are none.
-    void recordAppearance(gpu::Commands& commands, const Appearance& appearance);
+    /// Writes all slots of a population of all instances (`appearances`: in the order of the
+    /// constructor's) in one dispatch, at the time of the last recordAdvanceTo() or at the end of
+    /// the last tick; those without a particle get radius 0. Centres are relative to the camera.
+    /// `spheres`: of shader::SphereData. Records nothing if there are none.
+    void recordAppearance(gpu::Commands& commands, std::uint32_t population,
+                          const dvec3& cameraPosition, std::span<const Appearance> appearances,
+                          const gpu::Buffer& spheres);
 
     std::uint64_t tick() const { return mTick; }  ///< ticks recorded
     double sinceTick() const { return mSinceTick; }  ///< ticks beyond them, [0, 1), for appearance
@@ -78,6 +78,7 @@ class GpuSimulation {
     std::uint64_t mTick = 0;
     double mSinceTick = 0;
     bool mMustClear = true;
+    std::vector<shader::AppearancePlace> mAppearancePlaces;  // keeps its memory
 };
 
 }  // namespace brume::particles

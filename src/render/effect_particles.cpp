@@ -137,20 +137,29 @@ void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
         .readsWrites(spheres, Access::ComputeWrite)
         .record([this, &scene, spheres](gpu::Commands& commands,
                                         const frame::PassResources& resources) {
-            for (std::size_t i = 0; i < mPlaces.size(); ++i) {
-                const scene::EffectInstance& effect = mPrepared->scene.effects[i];
-                if (effect.effect.surface) continue;
-                mSimulations[mPlaces[i].simulation]->recordAppearance(
-                    commands, {.worldFromEffect = effect.worldFromEffect,
-                               .cameraPosition = scene.camera().position,
-                               .medium = effect.medium,
-                               .firstId = firstParticleId(i),
-                               .spheres = &resources.buffer(spheres),
-                               .firstSphere = scene.firstEffectSphere(i),
-                               .population = mPlaces[i].population,
-                               .instance = mPlaces[i].instance});
-            }
+            recordAppearances(commands, scene, resources.buffer(spheres));
         });
+}
+
+void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene& scene,
+                                        const gpu::Buffer& spheres) const {
+    std::vector<particles::GpuSimulation::Appearance>& appearances = mAppearances;
+    for (std::size_t s = 0; s < mSimulations.size(); ++s)
+        for (std::uint32_t p = 0; p < mSimulations[s]->populationCount(); ++p) {
+            appearances.clear();
+            for (const std::size_t root : mRoots[s]) {
+                const std::size_t i = root + p;
+                const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+                if (effect.effect.surface) break;  // as all instances of this population
+                appearances.push_back({.worldFromEffect = effect.worldFromEffect,
+                                       .medium = effect.medium,
+                                       .firstId = firstParticleId(i),
+                                       .firstSphere = scene.firstEffectSphere(i)});
+            }
+            if (!appearances.empty())
+                mSimulations[s]->recordAppearance(commands, p, scene.camera().position,
+                                                  appearances, spheres);
+        }
 }
 
 particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,

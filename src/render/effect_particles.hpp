@@ -53,6 +53,8 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
+    void recordAppearances(gpu::Commands& commands, const GpuScene& scene,
+                           const gpu::Buffer& spheres) const;
     particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
     std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
     std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
@@ -62,6 +64,7 @@ class EffectParticles {
     std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
     std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
+    mutable std::vector<particles::GpuSimulation::Appearance> mAppearances;  // keeps its memory
 };
 
 /// Id of the first particle of an effect; ids only order what begins at equal distances.

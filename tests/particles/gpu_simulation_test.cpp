@@ -1,79 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <particles/cpu_simulation.hpp>
-#include <particles/gpu_simulation.hpp>
-
 #include "effects.hpp"
-
-#include <cstring>
+#include "gpu_fixture.hpp"
 
 namespace brume::particles {
 namespace {
-
-/// A device with validation; a message fails the test.
-class GpuSimulationTest : public testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        sDevice = gpu::Device::create({.device = {},
-                                       .validate = true,
-                                       .synchronizationValidation = true,
-                                       .pipelineCacheFile = {}},
-                                      Log());
-        sSubmitter = std::make_unique<gpu::Submitter>(*sDevice);
-    }
-    static void TearDownTestSuite() {
-        sSubmitter.reset();
-        sDevice.reset();
-    }
-    void TearDown() override {
-        for (const std::string& message : sDevice->validationMessages()) ADD_FAILURE() << message;
-    }
-
-    gpu::Device& device() { return *sDevice; }
-
-    void runTicks(GpuSimulation& simulation, std::uint64_t ticks) {
-        sSubmitter->submitAndWait(
-            "ticks", [&](gpu::Commands& commands) { simulation.recordTicks(commands, ticks); });
-    }
-
-    /// Names the first particle that differs.
-    void expectSame(const GpuSimulation& gpu, const CpuSimulation& cpu) {
-        const SimulationState snapshot = gpu.readState(*sSubmitter);
-        EXPECT_EQ(snapshot.tick, cpu.tick());
-        for (std::uint32_t p = 0; p < cpu.populationCount(); ++p) {
-            SCOPED_TRACE(testing::Message() << "population " << p);
-            const Counters &a = snapshot.counters[p], &b = cpu.counters(p);
-            EXPECT_EQ(a.alive, b.alive);
-            EXPECT_EQ(a.born, b.born);
-            EXPECT_EQ(a.died, b.died);
-            EXPECT_EQ(a.rejected, b.rejected);
-            EXPECT_EQ(a.killed, b.killed);
-            EXPECT_LE(a.alive, gpu.slotCount(p));
-            expectSame(snapshot.populations[p], cpu.particles(p));
-        }
-        EXPECT_EQ(snapshot.hash(), cpu.hash());
-    }
-
-    static void expectSame(const std::vector<Particle>& got, const std::vector<Particle>& wanted) {
-        ASSERT_EQ(got.size(), wanted.size());
-        for (std::size_t i = 0; i < got.size(); ++i) {
-            const Particle &p = got[i], &q = wanted[i];
-            ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0)
-                << "particle " << i << ", birth " << p.birthIndex << " and " << q.birthIndex
-                << ", position " << p.position.x << " " << p.position.y << " " << p.position.z
-                << " and " << q.position.x << " " << q.position.y << " " << q.position.z
-                << ", velocity " << p.velocity.x << " " << p.velocity.y << " " << p.velocity.z
-                << " and " << q.velocity.x << " " << q.velocity.y << " " << q.velocity.z
-                << ", lifetime " << p.life.lifetimeTicks << " and " << q.life.lifetimeTicks;
-        }
-    }
-
-    static std::unique_ptr<gpu::Device> sDevice;
-    static std::unique_ptr<gpu::Submitter> sSubmitter;
-};
-
-std::unique_ptr<gpu::Device> GpuSimulationTest::sDevice;
-std::unique_ptr<gpu::Submitter> GpuSimulationTest::sSubmitter;
 
 TEST_F(GpuSimulationTest, FirstTicks_GiveTheBitsOfTheTwin) {
     GpuSimulation gpu(device(), busyEffect(), 17, 3);
@@ -307,12 +238,9 @@ TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
             device(), {.name = "spheres", .bytes = (slots + 4) * sizeof(shader::SphereData)});
         commands.fillBuffer(spheres, 0x7fc00000u);
         commands.computeTransferBarrier();
-        gpu.recordAppearance(commands, {.worldFromEffect = transform,
-                                        .cameraPosition = camera,
-                                        .medium = 7,
-                                        .firstId = 1000,
-                                        .spheres = &spheres,
-                                        .firstSphere = 3});
+        const std::array appearances = {GpuSimulation::Appearance{
+            .worldFromEffect = transform, .medium = 7, .firstId = 1000, .firstSphere = 3}};
+        gpu.recordAppearance(commands, 0, camera, appearances, spheres);
     });
     const auto got = sSubmitter->readBuffer<shader::SphereData>(spheres, slots + 1,
                                                                 3 * sizeof(shader::SphereData));
