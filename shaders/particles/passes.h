@@ -46,6 +46,8 @@ BRUME_CONST uint kBindingChildBatches = 21u;  // BirthBatch[] of the child
 // 22: kBindingFieldValues of field_grid.h
 BRUME_CONST uint kBindingStrands = 23u;       // uint[], before the tick; of effects with ribbons
 BRUME_CONST uint kBindingNewStrands = 24u;    // after it
+BRUME_CONST uint kBindingInstanceTicks = 26u;  // InstanceTick[]: tick, instance; in world space
+BRUME_CONST uint kBindingInstanceNoise = 27u;  // CurlNoiseShift[]: tick, instance, module
 BRUME_CONST uint kBindingAppearance = 25u;    // AppearanceFrame, then AppearancePlace[]
 
 /// One tick, as the CPU knows it beforehand.
@@ -66,7 +68,7 @@ struct Tick {
     uint overflow;     // births rejected beforehand
     uint slots;        // after the tick no instance has more particles alive
     uint isChild;      // births come from a sub-emitter
-    uint batchStride;  // then: batches of one instance
+    uint batchStride;  // from the batches of one instance to those of the next; 0: the same for all
     TickFields fields;
 };
 

@@ -24,6 +24,8 @@ layout(set = 0, binding = kBindingChunks, scalar) readonly buffer ChunksBlock { 
 layout(set = 0, binding = kBindingGroups, scalar) readonly buffer GroupsBlock { uint groups[]; };
 layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
+layout(set = 0, binding = kBindingInstanceTicks, scalar) readonly buffer InstanceTicksBlock { InstanceTick instanceTicks[]; };
+layout(set = 0, binding = kBindingInstanceNoise, scalar) readonly buffer InstanceNoiseBlock { CurlNoiseShift instanceNoise[]; };
 layout(set = 0, binding = kBindingStrands, scalar) readonly buffer StrandsBlock { uint strands[]; };
 layout(set = 0, binding = kBindingNewStrands, scalar) writeonly buffer NewStrandsBlock { uint newStrands[]; };
 layout(set = 0, binding = kBindingRecords, scalar) writeonly buffer RecordsBlock { BirthBatch records[]; };
@@ -70,7 +72,18 @@ void advance(inout Cursor cursor, StepParameters parameters, InstanceParameters 
     if (survives) write(cursor, particle, strand);
 }
 
-void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cursor cursor) {
+/// In world space instances have origins of their own: returns how far it moves before the tick.
+vec3 takeInstanceTick(inout Tick tick, uint instance) {
+    if (kIsWorld == 0u) return vec3(0);
+    uint i = push.slot * tick.instances + instance;
+    tick.fields.shift = instanceTicks[i].shift;
+    for (uint k = 0u; k < curlNoiseCount; ++k)
+        tick.fields.curlNoise[k] = instanceNoise[i * curlNoiseCount + k];
+    return instanceTicks[i].rebase;
+}
+
+void stepSurvivors(Tick tick, InstanceParameters instance, vec3 rebase, uvec2 range,
+                   inout Cursor cursor) {
     StepParameters parameters = effect.step;
     for (uint i = range.x; i < range.y; ++i) {
         Particle particle;
@@ -78,7 +91,9 @@ void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cu
         particle.life = lives[slot];
         bool survives = isAlive(particle.life, tick.index);
         if (survives || kSubEmitterCount > 0u) {
-            particle.position = positions[slot];
+            precise vec3 position = positions[slot];
+            if (kIsWorld != 0u) position = position - rebase;
+            particle.position = position;
             particle.velocity = velocities[slot];
             particle.birthIndex = birthIndices[slot];
             uint strand = kHasStrands != 0u ? strands[slot] : 0u;
@@ -94,7 +109,7 @@ void appendBirths(Tick tick, TickTotals before, uint instanceIndex, InstancePara
     uint index = findBatch(range, births.x);
     for (uint i = births.x; i < births.y; ++i) {
         BirthBatch batch = batchOf(range, i, index);
-        Particle particle = spawnFromBatch(instance.random, emitters[batch.emitter], batch,
+        Particle particle = spawnFromBatch(instance, emitters[batch.emitter], batch,
                                            i - batch.first, tick.index);
         bool survives = isAlive(particle.life, tick.index);
         if ((survives || kSubEmitterCount > 0u) && cursor.slot < tick.capacity)
@@ -119,7 +134,8 @@ void main() {
     cursor.recordStride = tick.chunks * tick.instances * tick.chunkSize;
     for (uint k = 0u; k < kSubEmitterCount; ++k) cursor.counts[k] = RecordCount(0u, 0u);
 
-    stepSurvivors(tick, instance, survivorRange(tick, local, before.previousAlive), cursor);
+    vec3 rebase = takeInstanceTick(tick, instanceIndex);
+    stepSurvivors(tick, instance, rebase, survivorRange(tick, local, before.previousAlive), cursor);
     appendBirths(tick, before, instanceIndex, instance,
                  birthRange(tick, local, birthCountOf(tick, before)), cursor);
     if (cursor.killed > 0u) atomicAdd(totals[instanceIndex].counters.killed, cursor.killed);

@@ -73,9 +73,10 @@ render::EffectContents simulateOnCpu(const scene::Scene& scene) {
     for (std::size_t i = 0; i < scene.effects.size();) {
         const auto instance = static_cast<std::uint32_t>(i);
         const scene::EffectInstance& root = scene.effects[i];
-        particles::CpuSimulation simulation(root.effect, root.seed, instance);
+        particles::CpuSimulation simulation(root.effect, root.seed, instance, root.placement());
         simulation.advanceTo(root.simulatedSeconds());
         const particles::SimulationState state = simulation.state();
+        const particles::ParticleFrame frame = simulation.frame(root.placed());
         // Its populations are the next entries of the scene.
         for (std::uint32_t p = 0; p < simulation.populationCount(); ++p, ++i) {
             const scene::EffectInstance& effect = scene.effects[i];
@@ -87,11 +88,11 @@ render::EffectContents simulateOnCpu(const scene::Scene& scene) {
                      .population = p,
                      .random = particles::instanceParameters(root.seed, instance, p).random,
                      .sinceTick = simulation.sinceTick()},
-                    root.worldFromEffect, camera, effect.material);
+                    frame, camera, effect.material);
                 if (!mesh.indices.empty()) contents.surfaces.push_back(std::move(mesh));
                 continue;
             }
-            const auto added = simulation.spheres(root.worldFromEffect, effect.medium,
+            const auto added = simulation.spheres(frame, effect.medium,
                                                   static_cast<std::uint32_t>(firstId), p);
             contents.spheres.insert(contents.spheres.end(), added.begin(), added.end());
             firstId += simulation.counters(p).born + simulation.counters(p).rejected;

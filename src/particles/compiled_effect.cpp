@@ -215,6 +215,7 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
     sums.fields = &packer;
     addModules(effect.modules, sums);
     p.step = stepParameters(sums, effect.tickRate);
+    p.isWorld = effect.isWorldSpace;
     p.appearance = appearanceParameters(effect);
     for (std::size_t i = 0; i < sums.noiseDrifts.size(); ++i)
         compiled.noiseDrifts.push_back({-sums.noiseDrifts[i] * double{p.curlNoise[i].frequency}});
@@ -247,6 +248,13 @@ void addPopulations(const scene::Effect& effect, std::uint32_t parent, std::uint
     const auto index = static_cast<std::uint32_t>(all.size());
     all.push_back(compileOne(effect, parent != CompiledEffect::kNone));
     all[index].parent = parent;
+    if (parent != CompiledEffect::kNone) {
+        if (effect.isWorldSpace && !all[parent].isWorldSpace())
+            throw inputError("setting up an effect", "",
+                             "'space' of a sub-emitter's effect is world below a parent in local "
+                             "space, that of its parent allowed");
+        all[index].parameters.isWorld = all[parent].parameters.isWorld;
+    }
     all[index].subEmitter = sub;
     for (std::uint32_t i = 0; i < effect.subEmitters.size(); ++i) {
         all[index].children.push_back(static_cast<std::uint32_t>(all.size()));
@@ -286,6 +294,9 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
         p.random.seedLow = words.x;
         p.random.seedHigh = words.y;
     }
+    p.axisX = vec3(1, 0, 0);
+    p.axisY = vec3(0, 1, 0);
+    p.axisZ = vec3(0, 0, 1);
     p.noiseSeed = shader::pcg3d(shader::uvec3(p.random.seedLow, p.random.seedHigh, 0)).x;
     return p;
 }
@@ -306,11 +317,14 @@ std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick) {
     return start;
 }
 
-shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick) {
+shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick,
+                              const dvec3& shift) {
     shader::TickFields fields{};
+    fields.shift = vec3(shift);
     const double seconds = (static_cast<double>(tick) + 0.5) / effect.tickRate;
     for (std::size_t i = 0; i < effect.noiseDrifts.size(); ++i) {
-        const dvec3 way = effect.noiseDrifts[i].cellsPerSecond * seconds;
+        const dvec3 way = effect.noiseDrifts[i].cellsPerSecond * seconds +
+                          shift * double{effect.parameters.curlNoise[i].frequency};
         const dvec3 cells = glm::floor(way + (way.x + way.y + way.z) / 3);
         const dvec3 rest = way - (cells - (cells.x + cells.y + cells.z) / 6);
         for (int axis = 0; axis < 3; ++axis)
@@ -350,18 +364,14 @@ std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t t
     return hash;
 }
 
-double lengthScale(const dmat4& transform) {
-    return std::cbrt(std::fabs(glm::determinant(dmat3(transform))));
-}
-
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
                                              std::uint64_t ticks, double sinceTick,
-                                             const dmat4& worldFromEffect, std::uint32_t medium,
+                                             const ParticleFrame& frame, std::uint32_t medium,
                                              std::uint32_t firstId) {
     std::vector<scene::MediumSphere> spheres;
     spheres.reserve(particles.size());
-    const auto scale = static_cast<float>(lengthScale(worldFromEffect));
+    const auto scale = static_cast<float>(frame.radiusScale);
     const auto lastTick = static_cast<std::uint32_t>(ticks - 1);
     for (const Particle& particle : particles) {
         const auto since = static_cast<float>(sinceTick);
@@ -372,7 +382,7 @@ std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
         if (!(look.radius > 0 && look.density > 0)) continue;
         const dvec3 place =
             dvec3(particle.position) + dvec3(particle.velocity) * (sinceTick / effect.tickRate);
-        spheres.push_back({.center = transformPoint(worldFromEffect, place),
+        spheres.push_back({.center = transformPoint(frame.worldFromParticles, place),
                            .radius = look.radius * scale,
                            .density = look.density,
                            .tint = look.tint,

@@ -8,7 +8,7 @@ namespace {
 
 shader::AppearancePlace makePlace(const GpuSimulation::Appearance& appearance,
                                   const dvec3& cameraPosition) {
-    const dmat4& m = appearance.worldFromEffect;
+    const dmat4& m = appearance.frame.worldFromParticles;
     const dvec3 origin = dvec3(m[3]) - cameraPosition;
     shader::AppearancePlace place{};
     place.axisX = vec3(dvec3(m[0]));
@@ -16,7 +16,7 @@ shader::AppearancePlace makePlace(const GpuSimulation::Appearance& appearance,
     place.axisZ = vec3(dvec3(m[2]));
     place.origin = vec3(origin);
     place.originLo = vec3(origin - dvec3(place.origin));
-    place.radiusScale = static_cast<float>(lengthScale(m));
+    place.radiusScale = static_cast<float>(appearance.frame.radiusScale);
     place.firstSphere = appearance.firstSphere;
     place.medium = appearance.medium;
     place.firstId = appearance.firstId;

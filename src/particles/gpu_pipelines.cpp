@@ -12,7 +12,7 @@
 namespace brume::particles {
 
 std::vector<std::uint32_t> GpuPopulation::specialization() const {
-    std::vector<std::uint32_t> values(34, 0);
+    std::vector<std::uint32_t> values(35, 0);
     values[0] = mWorkgroupSize;
 #define BRUME_SPECIALIZE(Type, member, constant) \
     values[constant] = mEffect.parameters.member##Count;
@@ -20,6 +20,7 @@ std::vector<std::uint32_t> GpuPopulation::specialization() const {
 #undef BRUME_SPECIALIZE
     values[32] = mEffect.subEmitterCount;
     values[33] = mEffect.hasStrands;
+    values[34] = mEffect.isWorldSpace();
     return values;
 }
 
@@ -53,7 +54,7 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
                   kBindingEmitters,      kBindingBatches,       kBindingTicks,
                   kBindingInstances,     kBindingTriangles,     kBindingRecords,
                   kBindingRecordCounts,  kBindingFieldValues,   kBindingStrands,
-                  kBindingNewStrands},
+                  kBindingNewStrands,    kBindingInstanceTicks, kBindingInstanceNoise},
                  kTickBytes);
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
                        {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,

@@ -47,8 +47,12 @@ std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& e
     return std::max(std::min(wanted ? wanted : usual, most), least);
 }
 
-/// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects.
-constexpr std::uint32_t kTicksPerPart = 128;
+/// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects. Fewer where
+/// each instance has its own.
+std::uint32_t ticksPerPart(const CompiledEffect& effect, std::uint32_t instances) {
+    constexpr std::uint32_t kMost = 128, kMostOfInstances = 1u << 16u;
+    return effect.isWorldSpace() ? std::clamp(kMostOfInstances / instances, 1u, kMost) : kMost;
+}
 
 template <typename T>
 gpu::Buffer makeFilledBuffer(gpu::Device& device, const std::string& name,
@@ -75,11 +79,14 @@ GpuPopulation::GpuPopulation(gpu::Device& device, CompiledEffect effect, std::ui
       mWorkgroupSize(options.workgroupSize),
       mChunkSize(chooseChunkSize(device, mEffect, mInstanceCount, options.chunkSize)) {
     BRUME_ASSERT_LT(0u, mInstanceCount);
-    std::vector<shader::InstanceParameters> parameters;
-    for (const EffectInstance& one : instances)
-        parameters.push_back(instanceParameters(one.seed, one.instance, population));
+    for (const EffectInstance& one : instances) {
+        mInstanceData.push_back(instanceParameters(one.seed, one.instance, population));
+        if (mEffect.isWorldSpace())
+            InstanceSpace(one.placement, mEffect.tickRate).setAxes(mInstanceData.back());
+    }
+    mTicksPerPart = ticksPerPart(mEffect, mInstanceCount);
     mInstances = makeFilledBuffer<shader::InstanceParameters>(device, "particles.instances",
-                                                              parameters);
+                                                              mInstanceData);
     mBatchStride = parent ? static_cast<std::uint32_t>(parent->maxRecords()) : 0;
     makeBuffers(device);
     makePipelines(device);
@@ -100,7 +107,8 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     constexpr std::uint32_t kUsualBatches = 2048;
     mBatchCapacity = mEffect.isChild()
                          ? mBatchStride * mInstanceCount
-                         : std::max(kUsualBatches, mEffect.schedule.maxBatchesPerTick());
+                         : static_cast<std::uint32_t>(
+                               std::max<std::uint64_t>(kUsualBatches, maxBatches()));
 
     const std::uint64_t largest =
         std::max({all * sizeof(vec3), records * sizeof(shader::BirthBatch),
@@ -114,7 +122,14 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
                         device.limits().maxStorageBufferRange));
     mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[5]);
     mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[5]);
-    mTicks = makeBuffer(device, "particles.ticks", kTicksPerPart * sizeof(shader::Tick));
+    mTicks = makeBuffer(device, "particles.ticks", mTicksPerPart * sizeof(shader::Tick));
+    const std::uint64_t instanceTicks =
+        mEffect.isWorldSpace() ? std::uint64_t{mTicksPerPart} * mInstanceCount : 0;
+    mInstanceTicks = makeBuffer(device, "particles.instance_ticks",
+                                instanceTicks * sizeof(shader::InstanceTick));
+    mInstanceNoise = makeBuffer(
+        device, "particles.instance_noise",
+        instanceTicks * mEffect.parameters.curlNoiseCount * sizeof(shader::CurlNoiseShift));
     mChunks = makeBuffer(device, "particles.chunks", chunks * 4);
     mGroups = makeBuffer(device, "particles.groups", groups * 4);
     mTotals =
@@ -170,6 +185,8 @@ const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
         case shader::kBindingRecords: return &mRecords;
         case shader::kBindingRecordCounts: return &mRecordCounts;
         case shader::kBindingAppearance: return &mAppearanceData;
+        case shader::kBindingInstanceTicks: return &mInstanceTicks;
+        case shader::kBindingInstanceNoise: return &mInstanceNoise;
         default: return nullptr;
     }
 }
@@ -197,7 +214,7 @@ std::uint64_t GpuPopulation::bytes() const {
     for (const gpu::Buffer* buffer :
          {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles,
           &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts,
-          &mAppearanceData})
+          &mAppearanceData, &mInstanceTicks, &mInstanceNoise})
         sum += buffer->bytes();
     return sum;
 }
@@ -220,21 +237,53 @@ void GpuPopulation::restart(std::uint64_t tick) {
         mAliveBound.addTick(mEffect.schedule.at(t).count);
 }
 
-const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
+std::uint64_t GpuPopulation::maxBatches() const {
+    return std::uint64_t{mEffect.schedule.maxBatchesPerTick()} *
+           (mEffect.isWorldSpace() ? mInstanceCount : 1);
+}
+
+const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks,
+                                            std::span<const InstanceSpace> spaces) {
     TickPart& part = mPart;  // keeps its memory: a steady frame allocates nothing
     part.ticks.clear();
     part.batches.clear();
-    maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
+    part.instances.clear();
+    part.noise.clear();
+    maxTicks = std::min<std::uint64_t>(maxTicks, mTicksPerPart);
     while (part.ticks.size() < maxTicks &&
-           part.batches.size() + mEffect.schedule.maxBatchesPerTick() <= mBatchCapacity) {
+           (mEffect.isChild() || part.batches.size() + maxBatches() <= mBatchCapacity)) {
         const std::uint64_t tick = firstTick + part.ticks.size();
         if (!mEffect.isChild()) mEffect.schedule.at(tick, mBirths);
-        const TickBirths& births = mBirths;
         part.ticks.push_back(
-            makeTick(tick, births, static_cast<std::uint32_t>(part.batches.size())));
-        part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());
+            makeTick(tick, mBirths, static_cast<std::uint32_t>(part.batches.size())));
+        addBatches(tick, spaces);
+        if (mEffect.isWorldSpace()) addInstanceTicks(tick, spaces);
     }
     return part;
+}
+
+void GpuPopulation::addBatches(std::uint64_t tick, std::span<const InstanceSpace> spaces) {
+    std::vector<shader::BirthBatch>& batches = mPart.batches;
+    if (!mEffect.isWorldSpace()) {
+        batches.insert(batches.end(), mBirths.batches.begin(), mBirths.batches.end());
+        return;
+    }
+    for (const InstanceSpace& space : spaces)
+        for (const shader::BirthBatch& batch : mBirths.batches) {
+            batches.push_back(batch);
+            space.place(batches.back(), tick);
+        }
+}
+
+void GpuPopulation::addInstanceTicks(std::uint64_t tick, std::span<const InstanceSpace> spaces) {
+    for (const InstanceSpace& space : spaces) {
+        const dvec3 shift = space.shiftAt(tick);
+        mPart.instances.push_back({vec3(space.rebaseAt(tick)), vec3(shift)});
+        if (mEffect.parameters.curlNoiseCount == 0) continue;
+        const shader::TickFields fields = tickFields(mEffect, tick, shift);
+        mPart.noise.insert(mPart.noise.end(), fields.curlNoise,
+                           fields.curlNoise + mEffect.parameters.curlNoiseCount);
+    }
 }
 
 shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& births,
@@ -257,7 +306,9 @@ shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& birt
     if (!mEffect.isChild()) mAliveBound.addTick(births.count);
     tick.slots = slotCount();
     tick.isChild = mEffect.isChild();
-    tick.batchStride = mBatchStride;
+    tick.batchStride = mEffect.isChild()        ? mBatchStride
+                       : mEffect.isWorldSpace() ? tick.batchCount
+                                                : 0;
     tick.fields = tickFields(mEffect, index);
     return tick;
 }
@@ -275,6 +326,13 @@ void GpuPopulation::recordClear(gpu::Commands& commands, std::uint64_t tick) con
 void GpuPopulation::recordUpload(gpu::Commands& commands, const TickPart& part) const {
     commands.updateArray<shader::Tick>(mTicks, part.ticks);
     commands.updateArray<shader::BirthBatch>(mBatches, part.batches);
+    commands.updateArray<shader::InstanceTick>(mInstanceTicks, part.instances);
+    commands.updateArray<shader::CurlNoiseShift>(mInstanceNoise, part.noise);
+}
+
+void GpuPopulation::recordAxes(gpu::Commands& commands, std::span<const InstanceSpace> spaces) {
+    for (std::size_t i = 0; i < spaces.size(); ++i) spaces[i].setAxes(mInstanceData[i]);
+    commands.updateArray<shader::InstanceParameters>(mInstances, mInstanceData);
 }
 
 void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,

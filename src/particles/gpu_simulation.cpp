@@ -16,6 +16,8 @@ GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect,
         mPopulations.push_back(std::make_unique<GpuPopulation>(
             device, std::move(compiled), population, instances, options, parent));
     }
+    if (!this->effect().isWorldSpace()) return;
+    for (const EffectInstance& one : instances) mSpaces.emplace_back(one.placement, effect.tickRate);
 }
 
 GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect, std::uint64_t seed,
@@ -26,6 +28,20 @@ void GpuSimulation::restart(std::uint64_t tick) {
     mTick = tick;
     for (const auto& population : mPopulations) population->restart(tick);
     mMustClear = true;
+}
+
+ParticleFrame GpuSimulation::frame(std::uint32_t instance, const dmat4& worldFromEffect) const {
+    return mSpaces.empty() ? ParticleFrame(worldFromEffect) : mSpaces[instance].frameAt(mTick);
+}
+
+void GpuSimulation::moveTo(std::uint32_t instance, const dmat4& worldFromEffect, double seconds) {
+    if (mSpaces.empty()) return;
+    const std::uint64_t target = ticksAt(seconds, effect().tickRate);
+    mMustTurn |= mSpaces[instance].moveTo(worldFromEffect, mTick, target);
+}
+
+void GpuSimulation::rebase(const dvec3& newOrigin) {
+    for (InstanceSpace& space : mSpaces) space.rebase(newOrigin);
 }
 
 void GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds) {
@@ -47,11 +63,14 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     if (mMustClear)
         for (const auto& population : mPopulations) population->recordClear(commands, mTick);
     mMustClear = false;
+    if (mMustTurn)
+        for (const auto& population : mPopulations) population->recordAxes(commands, mSpaces);
+    mMustTurn = false;
     for (const std::uint64_t end = mTick + ticks; mTick < end;) {
         // Children follow their root tick by tick; only that knows how many fit.
         std::uint64_t most = end - mTick;
         for (const auto& population : mPopulations) {
-            const TickPart& part = population->schedulePart(mTick, most);
+            const TickPart& part = population->schedulePart(mTick, most, mSpaces);
             if (population == mPopulations.front()) most = part.ticks.size();
             population->recordUpload(commands, part);
         }

@@ -31,6 +31,15 @@ class GpuSimulation {
     /// the ticks before jumpTick(); then the counters take it that nothing was rejected in them.
     void recordAdvanceTo(gpu::Commands& commands, double seconds);
 
+    /// Where the particles of an instance are now; `worldFromEffect`: where the instance is, for
+    /// local space.
+    ParticleFrame frame(std::uint32_t instance, const dmat4& worldFromEffect) const;
+    /// In world space: a host moves an instance, straight while it goes on to `seconds`. In local
+    /// space, or where that is its last transform, nothing happens.
+    void moveTo(std::uint32_t instance, const dmat4& worldFromEffect, double seconds);
+    /// In world space: the world counts from another point now; nothing moves.
+    void rebase(const dvec3& newOrigin);
+
     std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
     std::uint32_t instanceCount() const { return mPopulations[0]->instanceCount(); }
 
@@ -41,7 +50,7 @@ class GpuSimulation {
 
     /// Where and how a population of an instance appears.
     struct Appearance {
-        dmat4 worldFromEffect{1};
+        ParticleFrame frame;            ///< see frame()
         std::uint32_t medium = 0;
         std::uint32_t firstId = 0;      ///< sphere id = firstId + birth index
         std::uint32_t firstSphere = 0;  ///< fills [firstSphere, firstSphere + slotCount())
@@ -78,6 +87,8 @@ class GpuSimulation {
     std::uint64_t mTick = 0;
     double mSinceTick = 0;
     bool mMustClear = true;
+    bool mMustTurn = false;              // the axes of instances are new
+    std::vector<InstanceSpace> mSpaces;  // of the instances, in world space
     std::vector<shader::AppearancePlace> mAppearancePlaces;  // keeps its memory
 };
 

@@ -61,7 +61,8 @@ EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepa
         }
         std::vector<particles::EffectInstance> instances;
         for (const std::size_t i : roots)
-            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i)});
+            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i),
+                                 prepared.scene.effects[i].placement()});
         mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
             device, prepared.scene.effects[roots[0]].effect, instances));
     }
@@ -119,6 +120,8 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
         particles::GpuSimulation& simulation = *mSimulations[i];
         const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
         const double tickRate = simulation.effect().tickRate;
+        for (std::uint32_t k = 0; k < simulation.instanceCount(); ++k)
+            simulation.moveTo(k, mPrepared->scene.effects[mRoots[i][k]].worldFromEffect, time);
         const std::uint64_t target = particles::ticksAt(time, tickRate);
         if (target > simulation.tick() && target - simulation.tick() > maxTicks)
             simulation.recordTicks(commands, maxTicks);
@@ -151,7 +154,8 @@ void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene&
                 const std::size_t i = root + p;
                 const scene::EffectInstance& effect = mPrepared->scene.effects[i];
                 if (effect.effect.surface) break;  // as all instances of this population
-                appearances.push_back({.worldFromEffect = effect.worldFromEffect,
+                const auto instance = static_cast<std::uint32_t>(appearances.size());
+                appearances.push_back({.frame = mSimulations[s]->frame(instance, effect.placed()),
                                        .medium = effect.medium,
                                        .firstId = firstParticleId(i),
                                        .firstSphere = scene.firstEffectSphere(i)});
@@ -164,7 +168,8 @@ void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene&
 
 particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,
                                                           std::size_t entry) const {
-    return {particles::fingerprintOf(mSimulations[simulation]->effects()),
+    return {particles::fingerprintOf(mSimulations[simulation]->effects(),
+                                     mPrepared->scene.effects[entry].placement()),
             mPrepared->scene.effects[entry].seed, static_cast<std::uint32_t>(entry)};
 }
 
@@ -211,7 +216,7 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
              .population = place.population,
              .random = particles::instanceParameters(effect.seed, root, place.population).random,
              .sinceTick = simulation.sinceTick()},
-            effect.worldFromEffect,
+            simulation.frame(place.instance, effect.placed()),
             scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height),
             effect.material);
         if (!mesh.indices.empty()) surfaces.push_back(std::move(mesh));
@@ -229,7 +234,8 @@ std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& su
         const auto snapshot = simulation.readState(submitter, place.instance);
         const auto shown = particles::makeSpheres(
             simulation.effect(place.population), snapshot.populations[place.population],
-            snapshot.tick, simulation.sinceTick(), effect.worldFromEffect, effect.medium,
+            snapshot.tick, simulation.sinceTick(),
+            simulation.frame(place.instance, effect.placed()), effect.medium,
             firstParticleId(i));
         spheres.insert(spheres.end(), shown.begin(), shown.end());
     }

@@ -117,17 +117,6 @@ Burst readBurst(const JsonNode& node) {
     return burst;
 }
 
-std::vector<std::pair<double, dvec3>> readPath(const std::vector<JsonNode>& items) {
-    std::vector<std::pair<double, dvec3>> path;
-    for (const JsonNode& item : items) {
-        const std::vector<JsonNode> pair = item.items();
-        if (!path.empty() && !(pair[0].number() > path.back().first))
-            throw pair[0].error("is not above the time before it, times must rise");
-        path.emplace_back(pair[0].number(), pair[1].vec3());
-    }
-    return path;
-}
-
 Emitter readEmitter(const JsonNode& node, const EffectPlace& place) {
     Emitter emitter;
     node.read("rate", emitter.rate);
@@ -135,7 +124,7 @@ Emitter readEmitter(const JsonNode& node, const EffectPlace& place) {
     node.read("delay", emitter.delay);
     node.read("duration", emitter.duration);
     if (node.has("shape")) readShape(node["shape"], place, emitter);
-    emitter.path = readPath(node.items("path"));
+    emitter.path = readPath(node);
     node.read("inherit", emitter.inherit);
     if (node.has("speed")) emitter.speed = node["speed"].range();
     if (node.has("direction")) emitter.direction = node["direction"].unitVec3();
@@ -243,6 +232,7 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
     Effect effect;
     root.read("capacity", effect.capacity);
     root.read("tickRate", effect.tickRate);
+    effect.isWorldSpace = root.has("space") && root["space"].text() == "world";
     root.read("medium", effect.medium);
     if (root.has("surface")) effect.surface = readSurface(root["surface"]);
     if (effect.medium.empty() && !effect.surface)

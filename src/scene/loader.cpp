@@ -211,6 +211,7 @@ class SceneReader {
         instance.file = existingFile(node["file"]);
         instance.effect = loadEffect(instance.file, mLog);
         instance.worldFromEffect = readTransform(node);
+        instance.path = readPath(node);
         node.read("seed", instance.seed);
         node.read("time", instance.time);
         node.read("start", instance.start);

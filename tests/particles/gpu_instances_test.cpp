@@ -68,7 +68,7 @@ TEST_F(GpuInstancesTest, Appearance_PlacesEachInstanceAtItsOwn) {
     sSubmitter->submitAndWait("appearance", [&](gpu::Commands& commands) {
         gpu.recordAdvanceTo(commands, 0.5);
         for (std::uint32_t i = 0; i < 5; ++i)
-            places[i] = {.worldFromEffect = glm::translate(dmat4(1), dvec3(100.0 * i, 0, 0)),
+            places[i] = {.frame = glm::translate(dmat4(1), dvec3(100.0 * i, 0, 0)),
                          .medium = i,
                          .firstId = i << 24u,
                          .firstSphere = 40 * (4 - i)};
@@ -81,7 +81,7 @@ TEST_F(GpuInstancesTest, Appearance_PlacesEachInstanceAtItsOwn) {
     for (std::uint32_t i = 0; i < 5; ++i) {
         CpuSimulation cpu(effect, instances[i].seed, instances[i].instance);
         cpu.advanceTo(0.5);
-        const auto wanted = cpu.spheres(places[i].worldFromEffect, i, i << 24u);
+        const auto wanted = cpu.spheres(places[i].frame, i, i << 24u);
         ASSERT_GT(wanted.size(), 5u);
         for (std::size_t k = 0; k < wanted.size(); ++k) {
             const shader::SphereData& sphere = got[places[i].firstSphere + k];

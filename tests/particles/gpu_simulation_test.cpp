@@ -239,7 +239,7 @@ TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
         commands.fillBuffer(spheres, 0x7fc00000u);
         commands.computeTransferBarrier();
         const std::array appearances = {GpuSimulation::Appearance{
-            .worldFromEffect = transform, .medium = 7, .firstId = 1000, .firstSphere = 3}};
+            .frame = transform, .medium = 7, .firstId = 1000, .firstSphere = 3}};
         gpu.recordAppearance(commands, 0, camera, appearances, spheres);
     });
     const auto got = sSubmitter->readBuffer<shader::SphereData>(spheres, slots + 1,
