@@ -15,6 +15,7 @@ layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { Pa
 layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
 layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer ParticleSpheresBlock { SphereData spheres[]; };
+layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
 layout(set = 0, binding = kBindingAppearance, scalar) readonly buffer AppearanceBlock {
     AppearanceFrame frame;
     AppearancePlace places[];
@@ -43,6 +44,9 @@ void main() {
         addExactly(sphere.center, sphere.centerLo, place.axisX * position.x);
         addExactly(sphere.center, sphere.centerLo, place.axisY * position.y);
         addExactly(sphere.center, sphere.centerLo, place.axisZ * position.z);
+        if (kIsThinned != 0u)
+            appearance = thinOut(appearance, length(sphere.center) * frame.distanceScale,
+                                 thinningRank(instances[instance].random, birthIndices[i]));
         bool isShown = isShownAt(life, frame.lastTick, frame.sinceTick);
         sphere.radius = isShown ? appearance.radius * place.radiusScale : 0;
         sphere.tint = appearance.tint;

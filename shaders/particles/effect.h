@@ -171,6 +171,8 @@ struct AppearanceParameters {
     float densityFactor;
     uint speedSegmentCount;
     SpeedSegment speedSegments[kMaxSpeedKeys];
+    float thinningDistance;  // m; 0: none
+    float thinningLeast;     // share that is always kept
 };
 
 /// All that the simulation of an effect reads and never writes, besides its emitters.
@@ -217,6 +219,7 @@ BRUME_STRUCTS_END
 #define BRUME_EFFECT_ARGUMENT effect,
 #define BRUME_COUNT(member) effect.member##Count
 #define BRUME_IS_WORLD (effect.isWorld != 0u)
+#define BRUME_IS_THINNED (effect.appearance.thinningDistance > 0.0f)
 #define BRUME_TRIANGLES triangles
 #define BRUME_TRIANGLES_PARAMETER const EmitterTriangle *triangles,
 #define BRUME_TRIANGLES_ARGUMENT triangles,
@@ -227,6 +230,7 @@ BRUME_STRUCTS_END
 #define BRUME_EFFECT_ARGUMENT
 #define BRUME_COUNT(member) member##Count
 #define BRUME_IS_WORLD (kIsWorld != 0u)
+#define BRUME_IS_THINNED (kIsThinned != 0u)
 #endif
 
 #endif

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bench/prepare.hpp>
 #include <core/frame_path.hpp>
+#include <particles/budget.hpp>
 #include <particles/cpu_simulation.hpp>
 #include <particles/surfaces.hpp>
 #include <scene/camera.hpp>
@@ -53,6 +54,7 @@ render::PreparedScene prepareScene(scene::Scene scene, const Log& log, int frame
     render::PreparedScene prepared;
     prepared.scene = std::move(scene);
     prepared.spheres = scene::makeMediumSpheres(prepared.scene.spheres);
+    particles::warnOfCut(particles::applyBudgets(prepared.scene), prepared.scene, log);
     prepareEffects(prepared.scene);
     for (const scene::Volume& volume : prepared.scene.volumes)
         addVolume(volume, frame, log, prepared);
@@ -92,8 +94,10 @@ render::EffectContents simulateOnCpu(const scene::Scene& scene) {
                 if (!mesh.indices.empty()) contents.surfaces.push_back(std::move(mesh));
                 continue;
             }
+            const particles::Viewer viewer{camera.position,
+                                           camera.type == scene::CameraType::Perspective};
             const auto added = simulation.spheres(frame, effect.medium,
-                                                  static_cast<std::uint32_t>(firstId), p);
+                                                  static_cast<std::uint32_t>(firstId), p, viewer);
             contents.spheres.insert(contents.spheres.end(), added.begin(), added.end());
             firstId += simulation.counters(p).born + simulation.counters(p).rejected;
         }

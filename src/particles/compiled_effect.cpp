@@ -368,7 +368,9 @@ std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
                                              std::uint64_t ticks, double sinceTick,
                                              const ParticleFrame& frame, std::uint32_t medium,
-                                             std::uint32_t firstId) {
+                                             std::uint32_t firstId,
+                                             const shader::RandomStream& random,
+                                             const std::optional<Viewer>& viewer) {
     std::vector<scene::MediumSphere> spheres;
     spheres.reserve(particles.size());
     const auto scale = static_cast<float>(frame.radiusScale);
@@ -376,13 +378,18 @@ std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
     for (const Particle& particle : particles) {
         const auto since = static_cast<float>(sinceTick);
         if (!shader::isShownAt(particle.life, lastTick, since)) continue;
-        const shader::Appearance look = shader::evaluateAppearance(
+        shader::Appearance look = shader::evaluateAppearance(
             effect.parameters, shader::normalisedAge(particle.life, lastTick, since),
             glm::length(particle.velocity));
-        if (!(look.radius > 0 && look.density > 0)) continue;
         const dvec3 place =
             dvec3(particle.position) + dvec3(particle.velocity) * (sinceTick / effect.tickRate);
-        spheres.push_back({.center = transformPoint(frame.worldFromParticles, place),
+        const dvec3 center = transformPoint(frame.worldFromParticles, place);
+        if (viewer && viewer->hasDistance && effect.parameters.appearance.thinningDistance > 0)
+            look = shader::thinOut(effect.parameters, look,
+                                   static_cast<float>(glm::length(center - viewer->position)),
+                                   shader::thinningRank(random, particle.birthIndex));
+        if (!(look.radius > 0 && look.density > 0)) continue;
+        spheres.push_back({.center = center,
                            .radius = look.radius * scale,
                            .density = look.density,
                            .tint = look.tint,

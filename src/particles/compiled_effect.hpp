@@ -10,6 +10,7 @@
 #include <scene/medium_sphere.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,12 +82,15 @@ std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t t
                             std::uint64_t previous = 0xcbf29ce484222325u);
 
 /// The particles as spheres for rendering, `sinceTick` ticks after `ticks` ticks: places and ages
-/// move on by that. Sphere i has id firstId + birth index. Those without a radius or density are
+/// move on by that. Sphere i has id firstId + birth index; `random` of instanceParameters() and the
+/// viewer decide which are thinned out. Those without a radius or density are
 /// left out.
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
                                              std::uint64_t ticks, double sinceTick,
                                              const ParticleFrame& frame, std::uint32_t medium,
-                                             std::uint32_t firstId);
+                                             std::uint32_t firstId,
+                                             const shader::RandomStream& random = {},
+                                             const std::optional<Viewer>& viewer = {});
 
 }  // namespace brume::particles

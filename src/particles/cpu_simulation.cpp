@@ -180,9 +180,10 @@ ParticleFrame CpuSimulation::frame(const dmat4& worldFromEffect) const {
 std::vector<scene::MediumSphere> CpuSimulation::spheres(const ParticleFrame& frame,
                                                         std::uint32_t medium,
                                                         std::uint32_t firstId,
-                                                        std::uint32_t population) const {
-    return makeSpheres(effect(population), particles(population), mTick, mSinceTick,
-                       frame, medium, firstId);
+                                                        std::uint32_t population,
+                                                        const std::optional<Viewer>& viewer) const {
+    return makeSpheres(effect(population), particles(population), mTick, mSinceTick, frame, medium,
+                       firstId, mPopulations[population].instance.random, viewer);
 }
 
 }  // namespace brume::particles

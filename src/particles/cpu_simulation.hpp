@@ -52,7 +52,8 @@ class CpuSimulation {
     /// As makeSpheres(), of one population, at the time of the last advanceTo().
     std::vector<scene::MediumSphere> spheres(const ParticleFrame& frame, std::uint32_t medium,
                                              std::uint32_t firstId,
-                                             std::uint32_t population = 0) const;
+                                             std::uint32_t population = 0,
+                                             const std::optional<Viewer>& viewer = {}) const;
 
   private:
     struct Population {

@@ -26,14 +26,14 @@ shader::AppearancePlace makePlace(const GpuSimulation::Appearance& appearance,
 }  // namespace
 
 void GpuSimulation::recordAppearance(gpu::Commands& commands, std::uint32_t population,
-                                     const dvec3& cameraPosition,
+                                     const Viewer& viewer,
                                      std::span<const Appearance> appearances,
                                      const gpu::Buffer& spheres) {
     BRUME_ASSERT_EQ(appearances.size(), instanceCount());
     if (slotCount(population) == 0) return;
     mAppearancePlaces.clear();
     for (const Appearance& appearance : appearances)
-        mAppearancePlaces.push_back(makePlace(appearance, cameraPosition));
+        mAppearancePlaces.push_back(makePlace(appearance, viewer.position));
     const CompiledEffect& compiled = effect(population);
     shader::AppearanceFrame frame{};
     frame.instances = instanceCount();
@@ -41,6 +41,7 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, std::uint32_t popu
     frame.lastTick = static_cast<std::uint32_t>(mTick - 1);
     frame.sinceTick = static_cast<float>(mSinceTick);
     frame.sinceTickSeconds = static_cast<float>(mSinceTick / compiled.tickRate);
+    frame.distanceScale = viewer.hasDistance ? 1.0f : 0.0f;
     frame.profile = static_cast<std::uint32_t>(compiled.profile);
     commands.beginLabel("particles.appearance");
     mPopulations[population]->recordAppearance(commands, spheres, frame, mAppearancePlaces);

@@ -12,7 +12,7 @@
 namespace brume::particles {
 
 std::vector<std::uint32_t> GpuPopulation::specialization() const {
-    std::vector<std::uint32_t> values(35, 0);
+    std::vector<std::uint32_t> values(36, 0);
     values[0] = mWorkgroupSize;
 #define BRUME_SPECIALIZE(Type, member, constant) \
     values[constant] = mEffect.parameters.member##Count;
@@ -21,6 +21,7 @@ std::vector<std::uint32_t> GpuPopulation::specialization() const {
     values[32] = mEffect.subEmitterCount;
     values[33] = mEffect.hasStrands;
     values[34] = mEffect.isWorldSpace();
+    values[35] = mEffect.parameters.appearance.thinningDistance > 0;
     return values;
 }
 
@@ -59,7 +60,7 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
                        {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,
                         kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres,
-                        kBindingFieldValues, kBindingAppearance},
+                        kBindingFieldValues, kBindingAppearance, kBindingInstances},
                        0);
     if (mEffect.subEmitterCount == 0) return;
     mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,

@@ -159,7 +159,8 @@ std::array<std::uint64_t, 6> GpuPopulation::stateOffsets() const {
     // Bindings begin at multiples of 256 bytes, and none is empty.
     const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
     for (std::size_t i = 0; i < kSizes.size(); ++i) {
-        const std::uint64_t count = i + 1 < kSizes.size() || mEffect.hasStrands ? all : 1;
+        const bool isKept = all > 0 && (i + 1 < kSizes.size() || mEffect.hasStrands);
+        const std::uint64_t count = isKept ? all : 1;
         offsets[i + 1] = offsets[i] + (kSizes[i] * count + 255) / 256 * 256;
     }
     return offsets;
@@ -369,6 +370,18 @@ void GpuPopulation::recordChildren(gpu::Commands& commands, const shader::Tick& 
     };
     dispatch(mChildOffsets, mInstanceCount);
     dispatch(mChildBatches, std::uint64_t{tick.chunks} * mInstanceCount);
+}
+
+Counters GpuPopulation::readCounters(gpu::Submitter& submitter) const {
+    Counters sum{};
+    for (const auto& totals : submitter.readBuffer<shader::TickTotals>(mTotals, mInstanceCount)) {
+        sum.alive += totals.counters.alive;
+        sum.born += totals.counters.born;
+        sum.died += totals.counters.died;
+        sum.rejected += totals.counters.rejected;
+        sum.killed += totals.counters.killed;
+    }
+    return sum;
 }
 
 std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,

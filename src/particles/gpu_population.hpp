@@ -69,6 +69,8 @@ class GpuPopulation {
                           const shader::AppearanceFrame& frame,
                           std::span<const shader::AppearancePlace> places) const;
 
+    /// Of all instances together.
+    Counters readCounters(gpu::Submitter& submitter) const;
     /// Also the strands, if the effect keeps them.
     std::vector<Particle> readParticles(gpu::Submitter& submitter, std::uint32_t instance,
                                         Counters& counters,

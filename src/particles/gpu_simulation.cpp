@@ -100,6 +100,10 @@ std::uint64_t GpuSimulation::bytes() const {
     return sum;
 }
 
+Counters GpuSimulation::readCounters(gpu::Submitter& submitter, std::uint32_t population) const {
+    return mMustClear ? Counters{} : mPopulations[population]->readCounters(submitter);
+}
+
 SimulationState GpuSimulation::readState(gpu::Submitter& submitter, std::uint32_t instance) const {
     BRUME_ASSERT_LT(instance, instanceCount());
     SimulationState snapshot;

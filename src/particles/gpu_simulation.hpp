@@ -58,10 +58,11 @@ class GpuSimulation {
 
     /// Writes all slots of a population of all instances (`appearances`: in the order of the
     /// constructor's) in one dispatch, at the time of the last recordAdvanceTo() or at the end of
-    /// the last tick; those without a particle get radius 0. Centres are relative to the camera.
+    /// the last tick; those without a particle, or thinned out, get radius 0. Centres are relative
+    /// to the viewer.
     /// `spheres`: of shader::SphereData. Records nothing if there are none.
     void recordAppearance(gpu::Commands& commands, std::uint32_t population,
-                          const dvec3& cameraPosition, std::span<const Appearance> appearances,
+                          const Viewer& viewer, std::span<const Appearance> appearances,
                           const gpu::Buffer& spheres);
 
     std::uint64_t tick() const { return mTick; }  ///< ticks recorded
@@ -76,6 +77,9 @@ class GpuSimulation {
     /// The state after the recorded ticks, for tests, hashes, checkpoints and the reference.
     /// Submits and waits; all recorded ticks must have been submitted.
     SimulationState readState(gpu::Submitter& submitter, std::uint32_t instance = 0) const;
+
+    /// Of all instances of a population together. Submits and waits, as readState().
+    Counters readCounters(gpu::Submitter& submitter, std::uint32_t population) const;
 
     /// Goes on from a state. All instances must be given states of one tick. Submits and waits.
     void writeState(gpu::Submitter& submitter, std::span<const SimulationState> states);

@@ -20,6 +20,12 @@ struct ParticleFrame {
     double radiusScale = 1;  ///< of radii
 };
 
+/// From where particles are seen that are thinned out by their distance.
+struct Viewer {
+    dvec3 position{0};        ///< world
+    bool hasDistance = true;  ///< false: parallel rays, nothing is thinned
+};
+
 /// Scale of lengths under a transform: the cube root of |det|.
 double lengthScale(const dmat4& transform);
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace brume::render {
 
@@ -40,6 +41,10 @@ std::optional<int> findCheckpoint(const std::filesystem::path& folder, int frame
                         [&](std::size_t entry) { return it->second.count(entry) > 0; }))
             return it->first;
     return std::nullopt;
+}
+
+particles::Viewer viewerOf(const scene::CameraFrame& camera) {
+    return {camera.position, camera.type == scene::CameraType::Perspective};
 }
 
 }  // namespace
@@ -94,7 +99,9 @@ std::uint64_t EffectParticles::ticksBehind() const {
 
 void EffectParticles::groupInstances() {
     const std::vector<scene::EffectInstance>& effects = mPrepared->scene.effects;
-    std::map<std::pair<std::filesystem::path, double>, std::size_t> groups;
+    // A budget may have left instances of one effect different capacities.
+    std::map<std::tuple<std::filesystem::path, double, std::vector<std::uint32_t>>, std::size_t>
+        groups;
     Place place;
     for (std::size_t i = 0; i < effects.size(); ++i) {
         if (effects[i].isSubEmitter) {
@@ -102,7 +109,10 @@ void EffectParticles::groupInstances() {
         } else {
             // Effects made in code have no file to know them by: each stands alone.
             const bool isKnown = !effects[i].file.empty();
-            const std::pair key(effects[i].file, effects[i].simulatedSeconds());
+            std::vector<std::uint32_t> capacities;
+            for (const scene::Effect* effect : particles::listPopulations(effects[i].effect))
+                capacities.push_back(effect->capacity);
+            const std::tuple key(effects[i].file, effects[i].simulatedSeconds(), capacities);
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -161,9 +171,42 @@ void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene&
                                        .firstSphere = scene.firstEffectSphere(i)});
             }
             if (!appearances.empty())
-                mSimulations[s]->recordAppearance(commands, p, scene.camera().position,
+                mSimulations[s]->recordAppearance(commands, p, viewerOf(scene.camera()),
                                                   appearances, spheres);
         }
+}
+
+std::vector<Box3> EffectParticles::readBounds(gpu::Submitter& submitter, const GpuScene& scene) {
+    std::vector<particles::SphereRange> ranges;
+    for (std::size_t i = 0; i < mPlaces.size(); ++i) {
+        const Place& place = mPlaces[i];
+        const bool isShown = !mPrepared->scene.effects[i].effect.surface;
+        ranges.push_back({scene.firstEffectSphere(i),
+                          isShown ? mSimulations[place.simulation]->slotCount(place.population) : 0});
+    }
+    if (ranges.empty()) return {};
+    if (!mBounds) mBounds.emplace(scene.device(), ranges.size());
+    submitter.submitAndWait("bound particles", [&](gpu::Commands& commands) {
+        recordAppearances(commands, scene, scene.spheres());
+        mBounds->record(commands, scene.spheres(), ranges);
+    });
+    return particles::GpuBounds::makeBoxes(
+        submitter.readBuffer<std::uint32_t>(mBounds->words(), 6 * ranges.size()),
+        scene.camera().position);
+}
+
+particles::Counters EffectParticles::readCounters(gpu::Submitter& submitter) const {
+    particles::Counters sum{};
+    for (const auto& simulation : mSimulations)
+        for (std::uint32_t p = 0; p < simulation->populationCount(); ++p) {
+            const particles::Counters counters = simulation->readCounters(submitter, p);
+            sum.alive += counters.alive;
+            sum.born += counters.born;
+            sum.died += counters.died;
+            sum.rejected += counters.rejected;
+            sum.killed += counters.killed;
+        }
+    return sum;
 }
 
 particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,
@@ -208,7 +251,7 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
         const Place& place = mPlaces[i];
         const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
         const auto state = simulation.readState(submitter, place.instance);
-        const auto root = static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+        const std::uint32_t root = rootOf(place);
         scene::Mesh mesh = particles::makeSurfaceMesh(
             {.effect = effect.effect,
              .compiled = simulation.effect(place.population),
@@ -226,6 +269,9 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
 
 std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& submitter) const {
     std::vector<scene::MediumSphere> spheres;
+    const scene::Scene& scene = mPrepared->scene;
+    const particles::Viewer viewer = viewerOf(
+        scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height));
     for (std::size_t i = 0; i < mPlaces.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
         if (effect.effect.surface) continue;
@@ -235,16 +281,22 @@ std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& su
         const auto shown = particles::makeSpheres(
             simulation.effect(place.population), snapshot.populations[place.population],
             snapshot.tick, simulation.sinceTick(),
-            simulation.frame(place.instance, effect.placed()), effect.medium,
-            firstParticleId(i));
+            simulation.frame(place.instance, effect.placed()), effect.medium, firstParticleId(i),
+            particles::instanceParameters(effect.seed, rootOf(place), place.population).random,
+            viewer);
         spheres.insert(spheres.end(), shown.begin(), shown.end());
     }
     return spheres;
 }
 
+std::uint32_t EffectParticles::rootOf(const Place& place) const {
+    return static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+}
+
 std::uint64_t EffectParticles::bytes() const {
     std::uint64_t sum = 0;
     for (const auto& simulation : mSimulations) sum += simulation->bytes();
+    if (mBounds) sum += mBounds->bytes();
     return sum;
 }
 

@@ -140,8 +140,17 @@ struct Surface {
     dvec2 spin{0};                     ///< [low, high], radians per second
 };
 
+/// Fewer, larger particles far away.
+struct Thinning {
+    double distance = 0;  ///< m from the camera, where it begins; 0: never
+    double least = 0.01;  ///< share of the particles that is always kept, (0, 1]
+};
+
 struct Effect {
     std::uint32_t capacity = 10000;
+    std::uint32_t budget = 0;  ///< particles of all its instances in a scene together; 0: no limit
+    bool isCut = false;        ///< a budget has lowered the capacity, to 0 maybe
+    Thinning thinning;
     double tickRate = 120;  ///< simulation steps per second
     /// Particles stay behind when the instance moves, and modules act along the world's axes, from
     /// where the instance began; else all of it moves with the instance. Of a sub-emitter: as its

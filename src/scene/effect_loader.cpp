@@ -254,6 +254,13 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
         readCurve(root["bySpeed"], "radius", "speed", effect.radiusBySpeed);
         readCurve(root["bySpeed"], "density", "speed", effect.densityBySpeed);
     }
+    root.read("budget", effect.budget);
+    if (root.has("thinning")) {
+        if (effect.surface)
+            throw root["thinning"].error("is given with 'surface', with 'medium' allowed");
+        effect.thinning.distance = root["thinning"]["distance"].number();
+        root["thinning"].read("least", effect.thinning.least);
+    }
     effect.smoothProfile = root.has("profile") && root["profile"].text() == "smooth";
     return effect;
 }

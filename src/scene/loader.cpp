@@ -79,6 +79,7 @@ class SceneReader {
         for (const JsonNode& node : mRoot.items("volumes")) readVolume(node);
         for (const JsonNode& node : mRoot.items("spheres")) readSphere(node);
         for (const JsonNode& node : mRoot.items("effects")) readEffectInstance(node);
+        mRoot.read("particleBudget", mScene.particleBudget);
         if (mRoot.has("render")) mScene.render = readRenderSettings(mRoot["render"]);
         return std::move(mScene);
     }

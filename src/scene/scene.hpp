@@ -198,6 +198,7 @@ struct Scene {
     std::vector<Volume> volumes;
     std::vector<Sphere> spheres;
     std::vector<EffectInstance> effects;
+    std::uint64_t particleBudget = 0;  ///< capacity of all effects together; 0: no limit
     RenderSettings render;
 };
 

@@ -124,6 +124,44 @@ TEST_F(RenderCommandLine, Particles_AreThoseOfTheReferenceSimulation) {
     EXPECT_GT(json["counters"]["stored"], 100);
 }
 
+TEST_F(RenderCommandLine, MovingThinnedCutEffects_AreThoseOfTheReferenceSimulation) {
+    const auto withKeys = [](const std::string& keys) {
+        return "{ " + keys + std::string(kSparks).substr(1);
+    };
+    std::ofstream(mFolder / "world.json")
+        << withKeys(R"("space": "world", "thinning": { "distance": 3, "least": 0.1 },)");
+    std::ofstream(mFolder / "local.json") << kSparks;
+    std::ofstream(mFolder / "moving.json") << R"({ "version": 1,
+      "camera": { "type": "perspective", "position": [1e6, 1, 5], "target": [1e6, 0.5, 0], "up": [0, 1, 0], "verticalFov": 40 },
+      "image": { "width": 64, "height": 48 },
+      "lights": [ { "type": "ambient", "radiance": [1, 1, 1] } ],
+      "media": { "smoke": { "extinction": [4, 4, 4], "albedo": [0.9, 0.8, 0.7] } },
+      "effects": [ { "file": "world.json", "time": 1.5, "transform": { "translate": [1e6, 0, 0] },
+                     "path": [[0, [-2, 0, 0]], [1.5, [20, 0, 0]]] },
+                   { "file": "local.json", "time": 1.5, "transform": { "translate": [1e6, 0, 0] },
+                     "path": [[0, [-2, 0, 0]], [1.5, [1, 0, 0]]] } ] })";
+    std::string warnings;
+    for (const std::string method : {"reference", "linked_list"}) {
+        const bool isReference = method == "reference";
+        std::vector<std::string> arguments = {"render", path("moving.json"), "--method", method,
+                                              "--particle-budget", "600", "--json", path("r.json")};
+        for (const std::string& more :
+             isReference ? std::vector<std::string>{"-o", path("r.exr")}
+                         : std::vector<std::string>{"--against", path("r.exr")})
+            arguments.push_back(more);
+        const Outcome outcome = runBrume(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        warnings = outcome.err;
+    }
+    EXPECT_NE(warnings.find("the budget leaves room for 600 of 1000 particles"), std::string::npos)
+        << warnings;
+    const Json json = readJson("r.json");
+    EXPECT_LE(json["error"]["rmse"], 2e-5);
+    EXPECT_GT(json["counters"]["stored"], 100);
+    EXPECT_GT(json["counters"]["particlesRejected"], 10);
+    EXPECT_GT(json["counters"]["particlesAlive"], 300);
+}
+
 TEST_F(RenderCommandLine, Frames_AreNumberedAndMove) {
     render("sparks.json", {"--method", "reference", "--frames", "23:24", "-o", path("f.##.exr"),
                            "--json", path("f.json")});

@@ -73,7 +73,7 @@ TEST_F(GpuInstancesTest, Appearance_PlacesEachInstanceAtItsOwn) {
                          .firstId = i << 24u,
                          .firstSphere = 40 * (4 - i)};
         dispatches = commands.dispatchCount();
-        gpu.recordAppearance(commands, 0, dvec3(0), places, spheres);
+        gpu.recordAppearance(commands, 0, {}, places, spheres);
         dispatches = commands.dispatchCount() - dispatches;
     });
     EXPECT_EQ(dispatches, 1u);

@@ -240,7 +240,7 @@ TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
         commands.computeTransferBarrier();
         const std::array appearances = {GpuSimulation::Appearance{
             .frame = transform, .medium = 7, .firstId = 1000, .firstSphere = 3}};
-        gpu.recordAppearance(commands, 0, camera, appearances, spheres);
+        gpu.recordAppearance(commands, 0, {camera}, appearances, spheres);
     });
     const auto got = sSubmitter->readBuffer<shader::SphereData>(spheres, slots + 1,
                                                                 3 * sizeof(shader::SphereData));
