@@ -30,8 +30,8 @@ void main() {
     uint instance = thread / slots;
     uint slot = thread - instance * slots;
     AppearancePlace place = places[instance];
-    SphereData sphere =
-        SphereData(vec3(0), vec3(0), 0, vec3(0), 0, place.medium, 0u, frame.profile);
+    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, place.medium, 0u, frame.profile,
+                                   kNoShares);
     if (slot < totals[instance].counters.alive) {
         uint i = instance * frame.capacity + slot;
         ParticleLife life = lives[i];
@@ -52,6 +52,7 @@ void main() {
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;
         sphere.id = place.firstId + birthIndices[i];
+        if (frame.isShadowedWhole != 0u) sphere.shares = place.firstSphere + slot;
     }
     spheres[place.firstSphere + slot] = sphere;
 }

@@ -110,7 +110,8 @@ struct AppearanceFrame {
     float sinceTick;         // ticks since the end of lastTick, [0, 1)
     float sinceTickSeconds;  // the same in seconds
     uint profile;
-    float distanceScale;  // of distances from the camera, for thinning; 0 where there are none
+    uint isShadowedWhole;    // else at each place
+    float distanceScale;     // of distances from the camera, for thinning; 0 where there are none
 };
 
 /// Where one instance appears.
@@ -129,7 +130,7 @@ struct AppearancePlace {
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::AppearanceFrame) == 28);
+static_assert(sizeof(brume::shader::AppearanceFrame) == 32);
 static_assert(offsetof(brume::shader::AppearancePlace, radiusScale) == 60);
 #endif
 #endif

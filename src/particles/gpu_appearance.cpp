@@ -41,6 +41,7 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, std::uint32_t popu
     frame.lastTick = static_cast<std::uint32_t>(mTick - 1);
     frame.sinceTick = static_cast<float>(mSinceTick);
     frame.sinceTickSeconds = static_cast<float>(mSinceTick / compiled.tickRate);
+    frame.isShadowedWhole = compiled.shadowing == scene::Shadowing::Particle;
     frame.distanceScale = viewer.hasDistance ? 1.0f : 0.0f;
     frame.profile = static_cast<std::uint32_t>(compiled.profile);
     commands.beginLabel("particles.appearance");

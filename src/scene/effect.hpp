@@ -146,6 +146,12 @@ struct Thinning {
     double least = 0.01;  ///< share of the particles that is always kept, (0, 1]
 };
 
+/// Where a soft sphere that scatters asks for the shadows on it.
+enum class Shadowing {
+    Particle,  ///< once, at its front towards the light: it does not shadow itself
+    Sample     ///< at each place along the view ray
+};
+
 struct Effect {
     std::uint32_t capacity = 10000;
     std::uint32_t budget = 0;  ///< particles of all its instances in a scene together; 0: no limit
@@ -169,6 +175,7 @@ struct Effect {
     Curve<double> radiusBySpeed;         ///< m/s to a factor; no keys: 1
     Curve<double> densityBySpeed;
     bool smoothProfile = false;
+    Shadowing shadowing = Shadowing::Particle;
     /// The grids that the effect names, once loaded (volumes::loadEffectFields).
     std::map<FieldSource, std::shared_ptr<const FieldValues>> fields;
 };

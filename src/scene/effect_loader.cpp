@@ -262,6 +262,8 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
         root["thinning"].read("least", effect.thinning.least);
     }
     effect.smoothProfile = root.has("profile") && root["profile"].text() == "smooth";
+    if (root.has("shadowing") && root["shadowing"].text() == "sample")
+        effect.shadowing = Shadowing::Sample;
     return effect;
 }
 
