@@ -7,13 +7,10 @@
 #include "effect_block.glsl"
 #include "../common/exponential.glsl"
 #include "appearance.h"
+#include "state.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant, scalar) uniform Push { AppearancePush push; };
-layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindingVelocities, scalar) readonly buffer VelocitiesBlock { vec3 velocities[]; };
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
 layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer ParticleSpheresBlock { SphereData spheres[]; };
 
@@ -25,11 +22,13 @@ void main() {
     SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
     if (slot < state.counters.alive) {
         uint i = push.firstSlot + slot;
-        ParticleLife life = lives[i];
-        vec3 velocity = velocities[i];
+        uint birthIndex;
+        ParticleLife life = loadLife(i, birthIndex);
+        vec3 position, velocity;
+        loadMotion(i, position, velocity);
         Appearance appearance =
             evaluateAppearance(normalisedAge(life, push.lastTick, push.sinceTick), length(velocity));
-        vec3 position = positions[i] + velocity * push.sinceTickSeconds;
+        position += velocity * push.sinceTickSeconds;
         sphere.center = push.origin;
         sphere.centerLo = push.originLo;
         addExactly(sphere.center, sphere.centerLo, push.axisX * position.x);
@@ -39,7 +38,7 @@ void main() {
         sphere.radius = isShown ? appearance.radius * push.radiusScale : 0;
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;
-        sphere.id = push.firstId + birthIndices[i];
+        sphere.id = push.firstId + birthIndex;
     }
     spheres[push.firstSphere + slot] = sphere;
 }

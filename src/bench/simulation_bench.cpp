@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <bench/simulation_bench.hpp>
 #include <bench/statistics.hpp>
 #include <functional>
@@ -22,6 +24,7 @@ struct Case {
     std::string name;
     std::function<void(gpu::Commands&)> prepare, record;
     std::vector<double> timesMs;
+    std::vector<std::string> passes;  ///< if not empty, only their times count
 };
 
 /// All cases in turn, round by round, so that a machine that is busy with something else slows them
@@ -31,6 +34,7 @@ class Bench {
     explicit Bench(gpu::Device& device) : mDevice(device), mSubmitter(device), mTimers(device) {}
 
     gpu::Device& device() { return mDevice; }
+    gpu::TimerPool& timers() { return mTimers; }
 
     void submit(const std::function<void(gpu::Commands&)>& record) {
         mSubmitter.submitAndWait("bench", record);
@@ -46,12 +50,21 @@ class Bench {
         return mTimers.readTotalMs();
     }
 
+    double readPassesMs(const std::vector<std::string>& passes) const {
+        double sum = 0;
+        for (const gpu::ScopeTime& scope : mTimers.read())
+            if (std::find(passes.begin(), passes.end(), scope.name) != passes.end())
+                sum += scope.timeMs;
+        return sum;
+    }
+
     /// The first round compiles the shaders and does not count.
     void measure(std::vector<Case>& cases, int repeats) {
         for (int round = 0; round <= repeats; ++round)
             for (Case& one : cases) {
                 if (one.prepare) submit(one.prepare);
-                const double ms = timeMs(one.record);
+                double ms = timeMs(one.record);
+                if (!one.passes.empty()) ms = readPassesMs(one.passes);
                 if (round > 0) one.timesMs.push_back(ms);
             }
     }
@@ -91,7 +104,7 @@ Case makeCopy(Bench& bench, std::uint32_t particleCount) {
         commands.dispatchThreads(count, kWorkgroupSize);
         commands.computeBarrier();
     };
-    return {"copy of 40 bytes each", {}, record, {}};
+    return {"copy of 40 bytes each", {}, record, {}, {}};
 }
 
 scene::Effect makeBurst(std::uint32_t particleCount, const dvec2& lifetime,
@@ -115,21 +128,24 @@ Case makeTick(Bench& bench, const std::string& name, std::uint32_t particleCount
         bench.device(), makeBurst(particleCount, dvec2(1e6), std::move(modules)), 1);
     // The births, in a tick of their own.
     bench.submit([&](gpu::Commands& commands) { simulation->recordTicks(commands, 1); });
-    return {name, {}, [=](gpu::Commands& commands) { simulation->recordTicks(commands, 1); }, {}};
+    return {
+        name, {}, [=](gpu::Commands& commands) { simulation->recordTicks(commands, 1); }, {}, {}};
 }
 
 /// A tick in which half of them die: the rest closes up, in order.
-Case makeCompaction(Bench& bench, std::uint32_t particleCount) {
+Case makeDeaths(Bench& bench, const std::string& name, std::uint32_t particleCount,
+                std::vector<std::string> passes = {}) {
     const scene::Effect effect = makeBurst(particleCount, dvec2(1, 3) / 120.0, {});
-    const auto simulation = std::make_shared<particles::GpuSimulation>(bench.device(), effect, 1);
+    particles::GpuSimulationOptions options;
+    if (!passes.empty()) options.timers = &bench.timers();
+    const auto simulation =
+        std::make_shared<particles::GpuSimulation>(bench.device(), effect, 1, 0, options);
+    const auto tick = [=](gpu::Commands& commands) { simulation->recordTicks(commands, 1); };
     const auto prepare = [=](gpu::Commands& commands) {
         simulation->recordAdvanceTo(commands, 0);  // anew
-        simulation->recordTicks(commands, 1);
+        tick(commands);
     };
-    return {"stable compaction, half of them die",
-            prepare,
-            [=](gpu::Commands& commands) { simulation->recordTicks(commands, 1); },
-            {}};
+    return {name, prepare, tick, {}, std::move(passes)};
 }
 
 Case makeSort(Bench& bench, std::uint32_t count) {
@@ -156,7 +172,7 @@ Case makeSort(Bench& bench, std::uint32_t count) {
         buffers->sort.record(commands, buffers->keys, buffers->values, count);
         commands.computeTransferBarrier();
     };
-    return {"radix sort of pairs", prepare, record, {}};
+    return {"radix sort of pairs", prepare, record, {}, {}};
 }
 
 scene::ModuleSettings module(const char* type) { return {.type = type, .where = "bench"}; }
@@ -173,7 +189,9 @@ std::vector<SimulationCost> measureSimulation(gpu::Device& device, std::uint32_t
                              {module("gravity"), module("drag")}));
     cases.push_back(makeTick(bench, "tick with gravity, drag, curl_noise", particleCount,
                              {module("gravity"), module("drag"), module("curl_noise")}));
-    cases.push_back(makeCompaction(bench, particleCount));
+    cases.push_back(makeDeaths(bench, "tick in which half of them die", particleCount));
+    cases.push_back(makeDeaths(bench, "its stable compaction alone", particleCount,
+                               {"particles.count", "particles.offsets", "particles.totals"}));
     cases.push_back(makeSort(bench, particleCount));
     bench.measure(cases, repeats);
 
