@@ -44,9 +44,10 @@ std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& e
                               std::uint32_t instances, std::uint32_t wanted) {
     constexpr std::uint32_t kMaxLoops = 45000, kMaxChunks = 32768;
     const std::uint64_t all = std::uint64_t{effect.capacity} * instances;
-    // Not a power of two: neighbouring chunks would begin in the same sets of the caches.
-    const auto usual = static_cast<std::uint32_t>(
-        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 16, 1000) | 8 : 16);
+    auto usual = static_cast<std::uint32_t>(
+        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 4, 1000) : 16);
+    // Neighbouring chunks should not begin in the same sets of the caches.
+    if (usual % 64 == 0) usual += 8;
     const std::uint32_t most = std::max(1u, kMaxLoops / loopsPerParticle(effect));
     // The pass over the chunks of an instance is serial in two places.
     const std::uint32_t least = divideUp(effect.capacity, kMaxChunks);
