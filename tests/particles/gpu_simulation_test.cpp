@@ -193,6 +193,31 @@ TEST_F(GpuSimulationTest, AdvanceToThePast_StartsAnew) {
     expectSame(gpu, cpu);
 }
 
+TEST_F(GpuSimulationTest, LongFrames_StopAtTheirTicksAndCatchUp) {
+    scene::Effect effect = burstEffect(1, 1);
+    effect.capacity = 1000;
+    effect.emitters = {{.rate = 500, .speed = {1, 2}, .spread = 1, .lifetime = {0.1, 0.5}}};
+    CpuSimulation cpu(effect, 2);
+    GpuSimulation gpu(device(), effect, 2);
+    std::vector<std::uint64_t> behind;
+    const auto advance = [&](double seconds) {
+        sSubmitter->submitAndWait("advance", [&](gpu::Commands& commands) {
+            behind.push_back(gpu.recordAdvanceTo(commands, seconds, 50));
+        });
+    };
+    for (int i = 0; i < 3; ++i) advance(0.99);  // 118 ticks, no jump yet
+    EXPECT_EQ(behind, (std::vector<std::uint64_t>{68, 18, 0}));
+    cpu.advanceTo(0.99);
+    expectSame(gpu, cpu);
+    // An hour later only the last lifetime is run, in two calls.
+    behind.clear();
+    for (int i = 0; i < 2; ++i) advance(3600);
+    const std::uint64_t window = gpu.effect().aliveBound.windowTicks();
+    EXPECT_EQ(behind, (std::vector<std::uint64_t>{window - 50, 0}));
+    cpu.advanceTo(3600);
+    expectSame(gpu, cpu);
+}
+
 TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
     scene::Effect effect = busyEffect();
     effect.smoothProfile = true;
