@@ -128,7 +128,7 @@ struct Renderer::Impl {
             composer.casters->recordContent(commands);
         });
         binCasters();
-        composer.scene.setShadows(composer.shadows->addresses());
+        composer.scene.setShadows(composer.shadows->addresses(), composer.shadows->sharesAddress());
         gpu::UploadRing ring(composer.device, "render.upload", 1);
         submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
             composer.scene.recordView(commands, ring);
