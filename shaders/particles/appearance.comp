@@ -7,12 +7,9 @@
 #include "effect_block.glsl"
 #include "../common/exponential.glsl"
 #include "appearance.h"
+#include "state.glsl"
 
 layout(local_size_x_id = 0) in;
-layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindingVelocities, scalar) readonly buffer VelocitiesBlock { vec3 velocities[]; };
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
 layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer ParticleSpheresBlock { SphereData spheres[]; };
 layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
@@ -34,11 +31,13 @@ void main() {
                                    kNoShares);
     if (slot < totals[instance].counters.alive) {
         uint i = instance * frame.capacity + slot;
-        ParticleLife life = lives[i];
-        vec3 velocity = velocities[i];
+        uint birthIndex;
+        ParticleLife life = loadLife(i, birthIndex);
+        vec3 position, velocity;
+        loadMotion(i, position, velocity);
         Appearance appearance = evaluateAppearance(
             normalisedAge(life, frame.lastTick, frame.sinceTick), length(velocity));
-        vec3 position = positions[i] + velocity * frame.sinceTickSeconds;
+        position += velocity * frame.sinceTickSeconds;
         sphere.center = place.origin;
         sphere.centerLo = place.originLo;
         addExactly(sphere.center, sphere.centerLo, place.axisX * position.x);
@@ -46,12 +45,12 @@ void main() {
         addExactly(sphere.center, sphere.centerLo, place.axisZ * position.z);
         if (kIsThinned != 0u)
             appearance = thinOut(appearance, length(sphere.center) * frame.distanceScale,
-                                 thinningRank(instances[instance].random, birthIndices[i]));
+                                 thinningRank(instances[instance].random, birthIndex));
         bool isShown = isShownAt(life, frame.lastTick, frame.sinceTick);
         sphere.radius = isShown ? appearance.radius * place.radiusScale : 0;
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;
-        sphere.id = place.firstId + birthIndices[i];
+        sphere.id = place.firstId + birthIndex;
         if (frame.isShadowedWhole != 0u) sphere.shares = place.firstSphere + slot;
     }
     spheres[place.firstSphere + slot] = sphere;

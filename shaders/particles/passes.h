@@ -20,18 +20,16 @@ BRUME_STRUCTS_BEGIN
 
 BRUME_CONST uint kChunksPerGroup = 64u;
 
-// Bindings; each pass has those that it uses. A state is an array per field, over the capacity.
-BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters
-BRUME_CONST uint kBindingPositions = 1u;  // before the tick
-BRUME_CONST uint kBindingVelocities = 2u;
-BRUME_CONST uint kBindingLives = 3u;
-BRUME_CONST uint kBindingBirthIndices = 4u;
-BRUME_CONST uint kBindingNewPositions = 5u;  // after the tick
-BRUME_CONST uint kBindingNewVelocities = 6u;
-BRUME_CONST uint kBindingNewLives = 7u;
-BRUME_CONST uint kBindingNewBirthIndices = 8u;
-BRUME_CONST uint kBindingChunks = 9u;     // uint[]: count, then offset of each chunk in its group
-BRUME_CONST uint kBindingGroups = 10u;    // uint[]: count, then offset of each group
+// A state is an array for each 64-bit word of a Particle, over the capacity of all instances:
+// software devices move a word at a time, whatever its size.
+BRUME_CONST uint kStateWords = 5u;
+
+// Bindings; each pass has those that it uses.
+BRUME_CONST uint kBindingEffect = 0u;    // EffectParameters
+BRUME_CONST uint kBindingState = 1u;     // uint64_t[], and the next kStateWords - 1; before the tick
+BRUME_CONST uint kBindingNewState = 6u;  // likewise; after it
+BRUME_CONST uint kBindingChunks = 28u;    // uint[]: count, then offset of each chunk in its group
+BRUME_CONST uint kBindingGroups = 29u;    // uint[]: count, then offset of each group
 BRUME_CONST uint kBindingTotals = 11u;    // TickTotals[], by instance
 BRUME_CONST uint kBindingEmitters = 12u;  // EmitterParameters[]
 BRUME_CONST uint kBindingBatches = 13u;   // BirthBatch[] of several ticks, or of all instances

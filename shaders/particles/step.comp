@@ -11,15 +11,15 @@ layout(set = 0, binding = kBindingTriangles, scalar) readonly buffer TrianglesBl
 #include "children.h"
 
 #include "births.glsl"
+#include "state.glsl"
 
-layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindingVelocities, scalar) readonly buffer VelocitiesBlock { vec3 velocities[]; };
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
-layout(set = 0, binding = kBindingNewPositions, scalar) writeonly buffer NewPositionsBlock { vec3 newPositions[]; };
-layout(set = 0, binding = kBindingNewVelocities, scalar) writeonly buffer NewVelocitiesBlock { vec3 newVelocities[]; };
-layout(set = 0, binding = kBindingNewLives, scalar) writeonly buffer NewLivesBlock { ParticleLife newLives[]; };
-layout(set = 0, binding = kBindingNewBirthIndices, scalar) writeonly buffer NewBirthIndicesBlock { uint newBirthIndices[]; };
+#define BRUME_NEW_STATE_WORD(k) \
+    layout(set = 0, binding = kBindingNewState + k, scalar) writeonly buffer NewState##k { uint64_t newState##k[]; };
+BRUME_NEW_STATE_WORD(0)
+BRUME_NEW_STATE_WORD(1)
+BRUME_NEW_STATE_WORD(2)
+BRUME_NEW_STATE_WORD(3)
+BRUME_NEW_STATE_WORD(4)
 layout(set = 0, binding = kBindingChunks, scalar) readonly buffer ChunksBlock { uint chunks[]; };
 layout(set = 0, binding = kBindingGroups, scalar) readonly buffer GroupsBlock { uint groups[]; };
 layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotals totals[]; };
@@ -43,10 +43,14 @@ struct Cursor {
 
 void write(inout Cursor cursor, Particle particle, uint strand) {
     uint slot = cursor.base + cursor.slot;
-    newPositions[slot] = particle.position;
-    newVelocities[slot] = particle.velocity;
-    newLives[slot] = particle.life;
-    newBirthIndices[slot] = particle.birthIndex;
+    vec3 x = particle.position, v = particle.velocity;
+    newState0[slot] = packUint2x32(floatBitsToUint(x.xy));
+    newState1[slot] = packUint2x32(floatBitsToUint(vec2(x.z, v.x)));
+    newState2[slot] = packUint2x32(floatBitsToUint(v.yz));
+    newState3[slot] = packUint2x32(
+        uvec2(particle.life.birthTick, floatBitsToUint(particle.life.birthRemaining)));
+    newState4[slot] = packUint2x32(
+        uvec2(floatBitsToUint(particle.life.lifetimeTicks), particle.birthIndex));
     if (kHasStrands != 0u) newStrands[slot] = strand;
     ++cursor.slot;
     cursor.killed += particle.life.lifetimeTicks == kNotFinite ? 1u : 0u;
@@ -88,14 +92,14 @@ void stepSurvivors(Tick tick, InstanceParameters instance, vec3 rebase, uvec2 ra
     for (uint i = range.x; i < range.y; ++i) {
         Particle particle;
         uint slot = cursor.base + i;
-        particle.life = lives[slot];
+        particle.life = loadLife(slot, particle.birthIndex);
         bool survives = isAlive(particle.life, tick.index);
         if (survives || kSubEmitterCount > 0u) {
-            precise vec3 position = positions[slot];
-            if (kIsWorld != 0u) position = position - rebase;
-            particle.position = position;
-            particle.velocity = velocities[slot];
-            particle.birthIndex = birthIndices[slot];
+            loadMotion(slot, particle.position, particle.velocity);
+            if (kIsWorld != 0u) {
+                precise vec3 position = particle.position - rebase;
+                particle.position = position;
+            }
             uint strand = kHasStrands != 0u ? strands[slot] : 0u;
             advance(cursor, parameters, instance, tick, false, survives, particle, strand);
         }

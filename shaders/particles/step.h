@@ -296,19 +296,28 @@ BRUME_SHARED StepOutcome stepParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAME
                         parameters.positionGain, particle);
 }
 
-/// A part of a tick, as after a birth within it.
-BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
-                                              StepParameters parameters,
-                                          TickFields fields, uint noiseSeed, float part,
-                                          BRUME_INOUT(Particle) particle) {
+/// The parameters of a step over a part of a tick, as after a birth within it.
+BRUME_SHARED StepParameters partOfStep(StepParameters parameters, float part) {
     BRUME_PRECISE float seconds = parameters.tickSeconds * part;
     BRUME_PRECISE float loss, phi1, phi2;
     BRUME_PRECISE float drag = parameters.dragPerTick * part;
     exponentialFactors(drag, parameters.dragHalvings, loss, phi1, phi2);
     BRUME_PRECISE float velocityGain = seconds * phi1;
     BRUME_PRECISE float positionGain = seconds * seconds * phi2;
-    return moveParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, seconds, loss,
-                        velocityGain, positionGain, particle);
+    parameters.tickSeconds = seconds;
+    parameters.loss = loss;
+    parameters.velocityGain = velocityGain;
+    parameters.positionGain = positionGain;
+    return parameters;
+}
+
+/// A part of a tick.
+BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                              StepParameters parameters,
+                                          TickFields fields, uint noiseSeed, float part,
+                                          BRUME_INOUT(Particle) particle) {
+    return stepParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT partOfStep(parameters, part),
+                        fields, noiseSeed, particle);
 }
 
 BRUME_STRUCTS_END

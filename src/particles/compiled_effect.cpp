@@ -302,12 +302,13 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
     return p;
 }
 
-std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick) {
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick, std::uint64_t from) {
     const std::uint64_t window = effect.aliveBound.windowTicks();
     // The indices of children count all that were asked for since tick 0.
     if (effect.subEmitterCount > 0 || window == 0 || tick <= 2 * window) return 0;
     // What was born within a window has met nobody but what was born in the window before that.
     const std::uint64_t start = tick - window;
+    if (start <= from) return 0;
     std::uint64_t births = 0;
     for (std::uint64_t t = start - window; t < tick; ++t) {
         const TickBirths now = effect.schedule.at(t);

@@ -63,8 +63,9 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
 
 /// The tick from which a simulation that starts with nothing alive arrives at `tick` with the same
 /// particles, bit by bit, as one that starts at tick 0: the longest lifetime before it. 0 if that is
-/// not certain: the effect has sub-emitters, very long lifetimes, or may have run out of capacity.
-std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick);
+/// not certain: the effect has sub-emitters, very long lifetimes, or may have run out of capacity;
+/// and if it is not later than `from`, where a simulation is already.
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick, std::uint64_t from = 0);
 
 /// What the modules know about a tick, the same for all instances in local space. `shift`: as
 /// InstanceSpace::shiftAt().

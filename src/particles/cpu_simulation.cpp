@@ -130,7 +130,7 @@ void CpuSimulation::restart() {
 }
 
 void CpuSimulation::jump(std::uint64_t target) {
-    const std::uint64_t tick = jumpTick(effect(), target);
+    const std::uint64_t tick = jumpTick(effect(), target, mTick);
     if (tick <= mTick) return;
     restart();
     mTick = tick;

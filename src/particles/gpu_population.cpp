@@ -9,7 +9,12 @@
 #include <numeric>
 
 namespace brume::particles {
+
+using shader::kStateWords;
+
 namespace {
+
+static_assert(sizeof(Particle) == kStateWords * sizeof(std::uint64_t));
 
 std::uint32_t divideUp(std::uint64_t a, std::uint64_t b) {
     return static_cast<std::uint32_t>((a + b - 1) / b);
@@ -39,8 +44,10 @@ std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& e
                               std::uint32_t instances, std::uint32_t wanted) {
     constexpr std::uint32_t kMaxLoops = 45000, kMaxChunks = 32768;
     const std::uint64_t all = std::uint64_t{effect.capacity} * instances;
-    const auto usual = static_cast<std::uint32_t>(
-        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 16, 512) : 16);
+    auto usual = static_cast<std::uint32_t>(
+        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 4, 1000) : 16);
+    // Neighbouring chunks should not begin in the same sets of the caches.
+    if (usual % 64 == 0) usual += 8;
     const std::uint32_t most = std::max(1u, kMaxLoops / loopsPerParticle(effect));
     // The pass over the chunks of an instance is serial in two places.
     const std::uint32_t least = divideUp(effect.capacity, kMaxChunks);
@@ -76,6 +83,7 @@ GpuPopulation::GpuPopulation(gpu::Device& device, CompiledEffect effect, std::ui
     : mEffect(std::move(effect)),
       mAliveBound(mEffect.aliveBound),
       mInstanceCount(static_cast<std::uint32_t>(instances.size())),
+      mTimers(options.timers),
       mWorkgroupSize(options.workgroupSize),
       mChunkSize(chooseChunkSize(device, mEffect, mInstanceCount, options.chunkSize)) {
     BRUME_ASSERT_LT(0u, mInstanceCount);
@@ -111,7 +119,7 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
                                std::max<std::uint64_t>(kUsualBatches, maxBatches()));
 
     const std::uint64_t largest =
-        std::max({all * sizeof(vec3), records * sizeof(shader::BirthBatch),
+        std::max({all * sizeof(std::uint64_t), records * sizeof(shader::BirthBatch),
                   mBatchCapacity * std::uint64_t{sizeof(shader::BirthBatch)}});
     if (largest > device.limits().maxStorageBufferRange)
         throw inputError(
@@ -120,8 +128,8 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
                         "allowed on this device",
                         mEffect.capacity, mInstanceCount, largest,
                         device.limits().maxStorageBufferRange));
-    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[5]);
-    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[5]);
+    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets().back());
+    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets().back());
     mTicks = makeBuffer(device, "particles.ticks", mTicksPerPart * sizeof(shader::Tick));
     const std::uint64_t instanceTicks =
         mEffect.isWorldSpace() ? std::uint64_t{mTicksPerPart} * mInstanceCount : 0;
@@ -151,24 +159,22 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     mFieldValues = makeFilledBuffer<float>(device, "particles.fields", mEffect.fieldValues);
 }
 
-std::array<std::uint64_t, 6> GpuPopulation::stateOffsets() const {
-    constexpr std::array<std::uint64_t, 5> kSizes = {sizeof(vec3), sizeof(vec3),
-                                                     sizeof(shader::ParticleLife),
-                                                     sizeof(std::uint32_t), sizeof(std::uint32_t)};
-    std::array<std::uint64_t, 6> offsets{};
+std::array<std::uint64_t, kStateWords + 2> GpuPopulation::stateOffsets() const {
+    std::array<std::uint64_t, kStateWords + 2> offsets{};
     // Bindings begin at multiples of 256 bytes, and none is empty.
     const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
-    for (std::size_t i = 0; i < kSizes.size(); ++i) {
-        const bool isKept = all > 0 && (i + 1 < kSizes.size() || mEffect.hasStrands);
-        const std::uint64_t count = isKept ? all : 1;
-        offsets[i + 1] = offsets[i] + (kSizes[i] * count + 255) / 256 * 256;
+    for (std::size_t i = 0; i <= kStateWords; ++i) {
+        const std::uint64_t bytes = i < kStateWords      ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint64_t)
+                                    : mEffect.hasStrands ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint32_t)
+                                                         : 1;
+        offsets[i + 1] = offsets[i] + (bytes + 255) / 256 * 256;
     }
     return offsets;
 }
 
-gpu::BufferRange GpuPopulation::stateRange(std::uint32_t state, std::uint32_t field) const {
+gpu::BufferRange GpuPopulation::stateRange(std::uint32_t state, std::uint32_t array) const {
     const auto offsets = stateOffsets();
-    return {&mStates[state], offsets[field], offsets[field + 1] - offsets[field]};
+    return {&mStates[state], offsets[array], offsets[array + 1] - offsets[array]};
 }
 
 const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
@@ -198,15 +204,15 @@ void GpuPopulation::bindAll(gpu::Commands& commands, const gpu::ComputePipeline&
         const std::uint32_t number = binding.number;
         if (const gpu::Buffer* buffer = bufferOf(number))
             commands.bind(number, *buffer);
-        else if (number >= shader::kBindingPositions && number <= shader::kBindingBirthIndices)
-            commands.bind(number, stateRange(mCurrent, number - shader::kBindingPositions));
-        else if (number >= shader::kBindingNewPositions &&
-                 number <= shader::kBindingNewBirthIndices)
-            commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewPositions));
+        else if (number >= shader::kBindingState && number < shader::kBindingState + kStateWords)
+            commands.bind(number, stateRange(mCurrent, number - shader::kBindingState));
+        else if (number >= shader::kBindingNewState &&
+                 number < shader::kBindingNewState + kStateWords)
+            commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewState));
         else if (number == shader::kBindingStrands)
-            commands.bind(number, stateRange(mCurrent, 4));
+            commands.bind(number, stateRange(mCurrent, kStateWords));
         else if (number == shader::kBindingNewStrands)
-            commands.bind(number, stateRange(1 - mCurrent, 4));
+            commands.bind(number, stateRange(1 - mCurrent, kStateWords));
     }
 }
 
@@ -338,17 +344,20 @@ void GpuPopulation::recordAxes(gpu::Commands& commands, std::span<const Instance
 
 void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,
                                std::uint32_t slot) {
-    const auto dispatch = [&](const gpu::ComputePipeline& pipeline, std::uint64_t threads) {
+    const auto dispatch = [&](const char* name, const gpu::ComputePipeline& pipeline,
+                              std::uint64_t threads) {
         if (threads == 0) return;
+        const std::size_t scope = mTimers ? mTimers->begin(commands, name) : 0;
         bindAll(commands, pipeline);
         commands.pushConstants(shader::TickPush{slot});
         commands.dispatchThreads(threads, mWorkgroupSize);
         commands.computeBarrier();
+        if (mTimers) mTimers->end(commands, scope);
     };
-    dispatch(mCount, std::uint64_t{tick.chunks} * mInstanceCount);
-    dispatch(mOffsets, std::uint64_t{tick.groups} * mInstanceCount);
-    dispatch(mTotalsPass, mInstanceCount);
-    dispatch(mStep, std::uint64_t{tick.chunks} * mInstanceCount);
+    dispatch("particles.count", mCount, std::uint64_t{tick.chunks} * mInstanceCount);
+    dispatch("particles.offsets", mOffsets, std::uint64_t{tick.groups} * mInstanceCount);
+    dispatch("particles.totals", mTotalsPass, mInstanceCount);
+    dispatch("particles.step", mStep, std::uint64_t{tick.chunks} * mInstanceCount);
     mCurrent = 1 - mCurrent;
 }
 
@@ -394,16 +403,16 @@ std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
     const gpu::Buffer& state = mStates[mCurrent];
     const auto offsets = stateOffsets();
     const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
-    const auto read = [&]<typename T>(std::size_t field, T) {
-        return submitter.readBuffer<T>(state, particles.size(), offsets[field] + first * sizeof(T));
+    const auto read = [&]<typename T>(std::size_t array, T) {
+        return submitter.readBuffer<T>(state, particles.size(), offsets[array] + first * sizeof(T));
     };
-    const auto positions = read(0, vec3());
-    const auto velocities = read(1, vec3());
-    const auto lives = read(2, shader::ParticleLife());
-    const auto indices = read(3, std::uint32_t());
-    if (mEffect.hasStrands) strands = read(4, std::uint32_t());
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        particles[i] = {positions[i], velocities[i], lives[i], indices[i]};
+    for (std::size_t word = 0; word < kStateWords; ++word) {
+        const auto words = read(word, std::uint64_t());
+        for (std::size_t i = 0; i < particles.size(); ++i)
+            std::memcpy(reinterpret_cast<char*>(&particles[i]) + word * sizeof words[i], &words[i],
+                        sizeof words[i]);
+    }
+    if (mEffect.hasStrands) strands = read(kStateWords, std::uint32_t());
     return particles;
 }
 
@@ -414,25 +423,18 @@ void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t inst
     BRUME_ASSERT_LE(particles.size(), mEffect.capacity);
     const auto offsets = stateOffsets();
     const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
-    std::vector<vec3> positions, velocities;
-    std::vector<shader::ParticleLife> lives;
-    std::vector<std::uint32_t> indices;
-    for (const Particle& p : particles) {
-        positions.push_back(p.position);
-        velocities.push_back(p.velocity);
-        lives.push_back(p.life);
-        indices.push_back(p.birthIndex);
-    }
+    std::array<std::vector<std::uint64_t>, kStateWords> words;
+    for (const Particle& p : particles)
+        for (std::size_t word = 0; word < kStateWords; ++word)
+            std::memcpy(&words[word].emplace_back(),
+                        reinterpret_cast<const char*>(&p) + word * sizeof(std::uint64_t),
+                        sizeof(std::uint64_t));
     submitter.submitAndWait("particles.restore", [&](gpu::Commands& commands) {
-        const auto write = [&]<typename T>(std::size_t field, const std::vector<T>& values) {
-            commands.updateArray<T>(mStates[mCurrent], values,
-                                    offsets[field] + first * sizeof(T));
+        const auto write = [&]<typename T>(std::size_t array, const std::vector<T>& values) {
+            commands.updateArray<T>(mStates[mCurrent], values, offsets[array] + first * sizeof(T));
         };
-        write(0, positions);
-        write(1, velocities);
-        write(2, lives);
-        write(3, indices);
-        if (mEffect.hasStrands) write(4, strands);
+        for (std::size_t word = 0; word < kStateWords; ++word) write(word, words[word]);
+        if (mEffect.hasStrands) write(kStateWords, strands);
         shader::TickTotals totals{};
         totals.counters = counters;
         totals.slots = slotCount();

@@ -8,6 +8,7 @@
 #include <array>
 #include <gpu/commands.hpp>
 #include <gpu/submitter.hpp>
+#include <gpu/timer_pool.hpp>
 #include <particles/compiled_effect.hpp>
 
 namespace brume::particles {
@@ -17,6 +18,7 @@ struct GpuSimulationOptions {
     std::uint32_t workgroupSize = 64;
     std::uint32_t chunkSize = 0;  ///< particles per invocation; 0: what suits the device. Never
                                   ///< more than what a software device finishes
+    gpu::TimerPool* timers = nullptr;  ///< gets a scope for each pass of each tick; outlives them
 };
 
 /// Which instance of an effect: see instanceParameters().
@@ -89,9 +91,9 @@ class GpuPopulation {
     void addInstanceTicks(std::uint64_t tick, std::span<const InstanceSpace> spaces);
     /// Batches of a tick at most, of all instances that have their own.
     std::uint64_t maxBatches() const;
-    /// Where the arrays of a state begin: positions, velocities, lives, birth indices, strands, end.
-    std::array<std::uint64_t, 6> stateOffsets() const;
-    gpu::BufferRange stateRange(std::uint32_t state, std::uint32_t field) const;
+    /// Where the arrays of a state begin: words of the particles, strands, end.
+    std::array<std::uint64_t, shader::kStateWords + 2> stateOffsets() const;
+    gpu::BufferRange stateRange(std::uint32_t state, std::uint32_t array) const;
     const gpu::Buffer* bufferOf(std::uint32_t binding) const;
     void bindAll(gpu::Commands& commands, const gpu::ComputePipeline& pipeline) const;
     std::uint64_t maxChunks() const;  // of one instance
@@ -104,6 +106,7 @@ class GpuPopulation {
     TickBirths mBirths;
     AliveBound mAliveBound;
     std::uint32_t mInstanceCount;
+    gpu::TimerPool* mTimers;
     std::uint32_t mWorkgroupSize;
     std::uint32_t mChunkSize;
     std::uint32_t mBatchCapacity = 0;

@@ -44,14 +44,17 @@ void GpuSimulation::rebase(const dvec3& newOrigin) {
     for (InstanceSpace& space : mSpaces) space.rebase(newOrigin);
 }
 
-void GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds) {
+std::uint64_t GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds,
+                                             std::uint64_t maxTicks) {
     const double tickRate = effect().tickRate;
     const std::uint64_t target = ticksAt(seconds, tickRate);
     if (target < mTick) restart(0);
-    const std::uint64_t jump = jumpTick(effect(), target);
+    const std::uint64_t jump = jumpTick(effect(), target, mTick);
     if (jump > mTick) restart(jump);
-    recordTicks(commands, target - mTick);
-    mSinceTick = tickFractionAt(seconds, tickRate);
+    recordTicks(commands, std::min(target - mTick, maxTicks));
+    const std::uint64_t behind = target - mTick;
+    mSinceTick = behind > 0 ? 0 : tickFractionAt(seconds, tickRate);
+    return behind;
 }
 
 void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {

@@ -29,7 +29,10 @@ class GpuSimulation {
 
     /// To the last tick that is over at `seconds`; starts anew if that lies in the past. Leaves out
     /// the ticks before jumpTick(); then the counters take it that nothing was rejected in them.
-    void recordAdvanceTo(gpu::Commands& commands, double seconds);
+    /// Stops after `maxTicks`, for frames that must end in time, and returns the number of ticks
+    /// still to go, for the next call: no time is lost.
+    std::uint64_t recordAdvanceTo(gpu::Commands& commands, double seconds,
+                                  std::uint64_t maxTicks = ~std::uint64_t{0});
 
     /// Where the particles of an instance are now; `worldFromEffect`: where the instance is, for
     /// local space.

@@ -129,14 +129,9 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
         particles::GpuSimulation& simulation = *mSimulations[i];
         const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
-        const double tickRate = simulation.effect().tickRate;
         for (std::uint32_t k = 0; k < simulation.instanceCount(); ++k)
             simulation.moveTo(k, mPrepared->scene.effects[mRoots[i][k]].worldFromEffect, time);
-        const std::uint64_t target = particles::ticksAt(time, tickRate);
-        if (target > simulation.tick() && target - simulation.tick() > maxTicks)
-            simulation.recordTicks(commands, maxTicks);
-        else
-            simulation.recordAdvanceTo(commands, time);
+        simulation.recordAdvanceTo(commands, time, maxTicks);
     }
 }
 

@@ -31,7 +31,8 @@ std::filesystem::path existingFile(const JsonNode& node, const EffectPlace& plac
     const auto path = (place.file.parent_path() / node.text()).lexically_normal();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
-        throw node.error("no such file: " + quoteForMessage(path.string(), 400));
+        throw node.error("no such file: " + quoteForMessage(path.string(), 400) +
+                             ", an existing one is needed");
     return path;
 }
 
