@@ -156,6 +156,27 @@ TEST_F(GpuReplayTest, EveryModuleInEveryRunAndWorkgroupSize_GivesTheHashOfTheTwi
         EXPECT_GT(cpu.counters(p).born, 5u) << p;
 }
 
+TEST_F(GpuReplayTest, HundredThousandAt500MetresPerSecond_NonePassesAThinPlane) {
+    scene::Effect effect = burstEffect(100000, 500, {1, -1, 0.2});
+    effect.emitters[0].position = {0, 3, 0};
+    effect.emitters[0].spread = 0.6;
+    effect.modules = {moduleSettings("gravity"), moduleSettings("collide_plane")};
+    GpuSimulation gpu(device(), effect, 1);
+    runTicks(gpu, 20);
+    const SimulationState state = gpu.readState(*sSubmitter);
+    ASSERT_EQ(state.counters[0].alive, 100000u);
+    std::size_t passed = 0, bounced = 0;
+    for (const Particle& p : state.populations[0]) {
+        passed += p.position.y < 0;
+        bounced += p.velocity.y > 0;
+    }
+    EXPECT_EQ(passed, 0u);
+    EXPECT_GT(bounced, 99000u);
+    CpuSimulation cpu(effect, 1);
+    cpu.step(20);
+    expectSame(gpu, cpu);
+}
+
 TEST_F(GpuReplayTest, TwentyRuns_GiveTheSameHash) {
     CpuSimulation cpu(busyEffect(), 5);
     cpu.step(60);
