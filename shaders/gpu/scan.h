@@ -6,10 +6,9 @@
 
 BRUME_STRUCTS_BEGIN
 
-// Elements that one invocation handles in sequence: short enough for devices that cap the loop
+// Elements that one invocation sums in sequence: short enough for devices that cap the loop
 // iterations of an invocation, long enough to need no shared memory.
 BRUME_CONST uint kScanChunk = 256u;
-BRUME_CONST uint kSortChunk = 256u;
 BRUME_CONST uint kSortDigits = 256u;
 
 struct ScanPush {
@@ -19,10 +18,10 @@ struct ScanPush {
 };
 
 struct SortPush {
-    uint64_t keysIn, valuesIn;    // uint[count]
-    uint64_t keysOut, valuesOut;  // uint[count]
-    uint64_t counts;              // uint[kSortDigits * chunks], digit-major
+    uint64_t keys, values;       // uint[count]
+    uint64_t pairsIn, pairsOut;  // uint64_t[count]: key + 2^32 value
     uint count;
+    uint chunkSize;
     uint shift;  // of the digit, bits
 };
 

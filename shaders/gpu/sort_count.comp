@@ -3,20 +3,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "address.glsl"
-#include "scan.h"
+#include "sort.glsl"
 
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { SortPush push; };
+uint found[kSortDigits];
+
+void count(uint i) { found[digitOf(loadKey(i))] += 1u; }
 
 void main() {
     uint chunk = gl_GlobalInvocationID.x;
-    uint chunks = (push.count + kSortChunk - 1u) / kSortChunk;
+    uint chunks = chunkCount();
     if (chunk >= chunks) return;
-    UintArray counts = UintArray(push.counts);
-    for (uint digit = 0u; digit < kSortDigits; ++digit) counts.at[digit * chunks + chunk] = 0u;
-    uint last = min((chunk + 1u) * kSortChunk, push.count);
-    for (uint i = chunk * kSortChunk; i < last; ++i) {
-        uint digit = (UintArray(push.keysIn).at[i] >> push.shift) & (kSortDigits - 1u);
-        counts.at[digit * chunks + chunk] += 1u;
-    }
+    for (uint digit = 0u; digit < kSortDigits; ++digit) found[digit] = 0u;
+    uvec2 range = chunkRange(chunk);
+    uint i = range.x;
+    for (; i + kSortUnrolled <= range.y; i += kSortUnrolled)
+        for (uint k = 0u; k < kSortUnrolled; ++k) count(i + k);
+    for (; i < range.y; ++i) count(i);
+    for (uint digit = 0u; digit < kSortDigits; ++digit)
+        counts[digit * chunks + chunk] = found[digit];
 }

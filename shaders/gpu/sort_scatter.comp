@@ -3,24 +3,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "address.glsl"
-#include "scan.h"
+#include "sort.glsl"
 
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { SortPush push; };
+uint targets[kSortDigits];
+
+void move(uint i) {
+    uint64_t pair = loadPair(i);
+    uint digit = digitOf(uint(pair));
+    uint target = targets[digit];
+    targets[digit] = target + 1u;
+    storePair(target, pair);
+}
 
 void main() {
     uint chunk = gl_GlobalInvocationID.x;
-    uint chunks = (push.count + kSortChunk - 1u) / kSortChunk;
+    uint chunks = chunkCount();
     if (chunk >= chunks) return;
-    UintArray counts = UintArray(push.counts);
-    uint last = min((chunk + 1u) * kSortChunk, push.count);
-    for (uint i = chunk * kSortChunk; i < last; ++i) {
-        uint key = UintArray(push.keysIn).at[i];
-        uint value = UintArray(push.valuesIn).at[i];
-        uint slot = ((key >> push.shift) & (kSortDigits - 1u)) * chunks + chunk;
-        uint target = counts.at[slot];
-        counts.at[slot] = target + 1u;
-        UintArray(push.keysOut).at[target] = key;
-        UintArray(push.valuesOut).at[target] = value;
-    }
+    for (uint digit = 0u; digit < kSortDigits; ++digit)
+        targets[digit] = counts[digit * chunks + chunk];
+    uvec2 range = chunkRange(chunk);
+    uint i = range.x;
+    for (; i + kSortUnrolled <= range.y; i += kSortUnrolled)
+        for (uint k = 0u; k < kSortUnrolled; ++k) move(i + k);
+    for (; i < range.y; ++i) move(i);
 }

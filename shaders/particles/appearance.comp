@@ -1,47 +1,57 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Writes the particles as spheres in the camera's space; slots without a particle get radius 0.
+// Writes the particles of all instances as spheres in the camera's space; slots without a particle get radius 0.
 #extension GL_GOOGLE_include_directive : require
 #include "passes.h"
 
 #include "effect_block.glsl"
 #include "../common/exponential.glsl"
 #include "appearance.h"
+#include "state.glsl"
 
 layout(local_size_x_id = 0) in;
-layout(push_constant, scalar) uniform Push { AppearancePush push; };
-layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindingVelocities, scalar) readonly buffer VelocitiesBlock { vec3 velocities[]; };
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
 layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingParticleSpheres, scalar) writeonly buffer ParticleSpheresBlock { SphereData spheres[]; };
+layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
+layout(set = 0, binding = kBindingAppearance, scalar) readonly buffer AppearanceBlock {
+    AppearanceFrame frame;
+    AppearancePlace places[];
+};
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x +
-                gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    TickTotals state = totals[push.instance];
-    if (slot >= state.slots) return;
-    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile,
+    uint thread = gl_GlobalInvocationID.x +
+                  gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    // The same for all instances.
+    uint slots = totals[0].slots;
+    if (thread >= slots * frame.instances) return;
+    uint instance = thread / slots;
+    uint slot = thread - instance * slots;
+    AppearancePlace place = places[instance];
+    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, place.medium, 0u, frame.profile,
                                    kNoShares);
-    if (slot < state.counters.alive) {
-        uint i = push.firstSlot + slot;
-        ParticleLife life = lives[i];
-        vec3 velocity = velocities[i];
-        Appearance appearance =
-            evaluateAppearance(normalisedAge(life, push.lastTick, push.sinceTick), length(velocity));
-        vec3 position = positions[i] + velocity * push.sinceTickSeconds;
-        sphere.center = push.origin;
-        sphere.centerLo = push.originLo;
-        addExactly(sphere.center, sphere.centerLo, push.axisX * position.x);
-        addExactly(sphere.center, sphere.centerLo, push.axisY * position.y);
-        addExactly(sphere.center, sphere.centerLo, push.axisZ * position.z);
-        bool isShown = isShownAt(life, push.lastTick, push.sinceTick);
-        sphere.radius = isShown ? appearance.radius * push.radiusScale : 0;
+    if (slot < totals[instance].counters.alive) {
+        uint i = instance * frame.capacity + slot;
+        uint birthIndex;
+        ParticleLife life = loadLife(i, birthIndex);
+        vec3 position, velocity;
+        loadMotion(i, position, velocity);
+        Appearance appearance = evaluateAppearance(
+            normalisedAge(life, frame.lastTick, frame.sinceTick), length(velocity));
+        position += velocity * frame.sinceTickSeconds;
+        sphere.center = place.origin;
+        sphere.centerLo = place.originLo;
+        addExactly(sphere.center, sphere.centerLo, place.axisX * position.x);
+        addExactly(sphere.center, sphere.centerLo, place.axisY * position.y);
+        addExactly(sphere.center, sphere.centerLo, place.axisZ * position.z);
+        if (kIsThinned != 0u)
+            appearance = thinOut(appearance, length(sphere.center) * frame.distanceScale,
+                                 thinningRank(instances[instance].random, birthIndex));
+        bool isShown = isShownAt(life, frame.lastTick, frame.sinceTick);
+        sphere.radius = isShown ? appearance.radius * place.radiusScale : 0;
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;
-        sphere.id = push.firstId + birthIndices[i];
-        if (push.isShadowedWhole != 0u) sphere.shares = push.firstSphere + slot;
+        sphere.id = place.firstId + birthIndex;
+        if (frame.isShadowedWhole != 0u) sphere.shares = place.firstSphere + slot;
     }
-    spheres[push.firstSphere + slot] = sphere;
+    spheres[place.firstSphere + slot] = sphere;
 }

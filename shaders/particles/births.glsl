@@ -5,12 +5,11 @@ layout(set = 0, binding = kBindingEmitters, scalar) readonly buffer Emitters {
 };
 layout(set = 0, binding = kBindingBatches, scalar) readonly buffer Batches { BirthBatch batches[]; };
 
-/// The batches of an instance's tick: [x, y). Those of a sub-emitter lie one instance after the
-/// other, all others are the same for all instances.
+/// The batches of an instance's tick: [x, y). Those of a sub-emitter or in world space lie one
+/// instance after the other, all others are the same for all instances.
 uvec2 batchRange(Tick tick, TickTotals totals, uint instance) {
-    return tick.isChild != 0u
-               ? uvec2(instance * tick.batchStride, instance * tick.batchStride + totals.batchCount)
-               : uvec2(tick.firstBatch, tick.firstBatch + tick.batchCount);
+    uint first = tick.firstBatch + instance * tick.batchStride;
+    return uvec2(first, first + (tick.isChild != 0u ? totals.batchCount : tick.batchCount));
 }
 
 uint birthCountOf(Tick tick, TickTotals totals) {

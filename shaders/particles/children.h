@@ -72,16 +72,15 @@ BRUME_SHARED ParticleTick followTick(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMET
     event.startVelocity = particle.velocity;
     event.life = particle.life;
     event.birthIndex = particle.birthIndex;
-    // The whole tick has its factors ready.
+    // The whole tick has its factors ready. One call for both: shaders hold all modules once each.
+    StepParameters step = parameters;
     if (isBirth || !survives) {
         BRUME_PRECISE float part =
             survives ? partOfFirstTick(particle.life) : event.to - event.from;
-        event.outcome = stepParticlePart(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, part,
-                                         particle);
-    } else {
-        event.outcome =
-            stepParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, particle);
+        step = partOfStep(parameters, part);
     }
+    event.outcome = stepParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT step, fields,
+                                 noiseSeed, particle);
     event.end = particle.position;
     event.endVelocity = particle.velocity;
     return event;

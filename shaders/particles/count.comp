@@ -11,8 +11,8 @@ layout(set = 0, binding = kBindingTriangles, scalar) readonly buffer TrianglesBl
 #include "step.h"
 
 #include "births.glsl"
+#include "state.glsl"
 
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
 layout(set = 0, binding = kBindingTotals, scalar) readonly buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
 layout(set = 0, binding = kBindingChunks, scalar) writeonly buffer ChunksBlock { uint chunks[]; };
@@ -28,8 +28,9 @@ void main() {
     uint count = 0u;
     uvec2 survivors = survivorRange(tick, local, before.counters.alive);
     uint base = instance * tick.capacity;
+    uint birthIndex;
     for (uint i = survivors.x; i < survivors.y; ++i)
-        count += isAlive(lives[base + i], tick.index) ? 1u : 0u;
+        count += isAlive(loadLife(base + i, birthIndex), tick.index) ? 1u : 0u;
 
     RandomStream random = instances[instance].random;
     uvec2 births = birthRange(tick, local, birthCountOf(tick, before));

@@ -31,7 +31,8 @@ struct ParticleLife {
     float lifetimeTicks;   // negative: killed
 };
 
-/// The hot state, 40 bytes; on the GPU one array per field. Metres and m/s in effect space.
+/// The hot state, 40 bytes; on the GPU one array per field. Metres and m/s in effect space, or, of
+/// effects in world space, along the world's axes from the instance's origin at the time.
 struct Particle {
     vec3 position;
     vec3 velocity;
@@ -122,12 +123,22 @@ struct SubEmitter {
 /// What the modules know about the current tick besides their parameters.
 struct TickFields {
     CurlNoiseShift curlNoise[kMaxModulesPerType];
+    vec3 shift;  // world space: from the particles' origin to that of the modules, m
+};
+
+/// World space: what a tick of an instance has besides.
+struct InstanceTick {
+    vec3 rebase;  // by which the origin moves before the tick, m
+    vec3 shift;   // as TickFields::shift
 };
 
 /// What makes an instance of an effect differ from the others.
 struct InstanceParameters {
     RandomStream random;
     uint noiseSeed;
+    vec3 axisX;  // world space: columns of the linear map from effect space to the world
+    vec3 axisY;
+    vec3 axisZ;
 };
 
 /// A segment of the piecewise-linear curves over normalised age: it adds slope * clamp(age - start,
@@ -160,6 +171,8 @@ struct AppearanceParameters {
     float densityFactor;
     uint speedSegmentCount;
     SpeedSegment speedSegments[kMaxSpeedKeys];
+    float thinningDistance;  // m; 0: none
+    float thinningLeast;     // share that is always kept
 };
 
 /// All that the simulation of an effect reads and never writes, besides its emitters.
@@ -171,6 +184,7 @@ struct EffectParameters {
     BRUME_MODULE_TYPES(BRUME_DECLARE_MODULE)
 #undef BRUME_DECLARE_MODULE
     SubEmitter subEmitters[kMaxSubEmitters];
+    uint isWorld;  // 1: particles live in the world's space
     AppearanceParameters appearance;
 };
 
@@ -198,12 +212,14 @@ BRUME_STRUCTS_END
 
 // Functions that look into the effect's arrays take it as an argument in C++; shaders define
 // BRUME_EFFECT as the block they have bound, because a copy of the whole struct would be loaded per
-// call, and each count as a specialisation constant (effect_block.glsl).
+// call, and each count and kind as a specialisation constant (effect_block.glsl).
 #ifdef __cplusplus
 #define BRUME_EFFECT effect
 #define BRUME_EFFECT_PARAMETER const EffectParameters &effect,
 #define BRUME_EFFECT_ARGUMENT effect,
 #define BRUME_COUNT(member) effect.member##Count
+#define BRUME_IS_WORLD (effect.isWorld != 0u)
+#define BRUME_IS_THINNED (effect.appearance.thinningDistance > 0.0f)
 #define BRUME_TRIANGLES triangles
 #define BRUME_TRIANGLES_PARAMETER const EmitterTriangle *triangles,
 #define BRUME_TRIANGLES_ARGUMENT triangles,
@@ -213,6 +229,8 @@ BRUME_STRUCTS_END
 #define BRUME_EFFECT_PARAMETER
 #define BRUME_EFFECT_ARGUMENT
 #define BRUME_COUNT(member) member##Count
+#define BRUME_IS_WORLD (kIsWorld != 0u)
+#define BRUME_IS_THINNED (kIsThinned != 0u)
 #endif
 
 #endif

@@ -10,5 +10,7 @@ layout(set = 0, binding = kBindingEffect, scalar) readonly buffer EffectBlock {
 BRUME_MODULE_TYPES(BRUME_DECLARE_COUNT)
 layout(constant_id = 32) const uint kSubEmitterCount = 0u;
 layout(constant_id = 33) const uint kHasStrands = 0u;
+layout(constant_id = 34) const uint kIsWorld = 0u;
+layout(constant_id = 35) const uint kIsThinned = 0u;
 
 #define BRUME_EFFECT effect

@@ -20,18 +20,16 @@ BRUME_STRUCTS_BEGIN
 
 BRUME_CONST uint kChunksPerGroup = 64u;
 
-// Bindings; each pass has those that it uses. A state is an array per field, over the capacity.
-BRUME_CONST uint kBindingEffect = 0u;     // EffectParameters
-BRUME_CONST uint kBindingPositions = 1u;  // before the tick
-BRUME_CONST uint kBindingVelocities = 2u;
-BRUME_CONST uint kBindingLives = 3u;
-BRUME_CONST uint kBindingBirthIndices = 4u;
-BRUME_CONST uint kBindingNewPositions = 5u;  // after the tick
-BRUME_CONST uint kBindingNewVelocities = 6u;
-BRUME_CONST uint kBindingNewLives = 7u;
-BRUME_CONST uint kBindingNewBirthIndices = 8u;
-BRUME_CONST uint kBindingChunks = 9u;     // uint[]: count, then offset of each chunk in its group
-BRUME_CONST uint kBindingGroups = 10u;    // uint[]: count, then offset of each group
+// A state is an array for each 64-bit word of a Particle, over the capacity of all instances:
+// software devices move a word at a time, whatever its size.
+BRUME_CONST uint kStateWords = 5u;
+
+// Bindings; each pass has those that it uses.
+BRUME_CONST uint kBindingEffect = 0u;    // EffectParameters
+BRUME_CONST uint kBindingState = 1u;     // uint64_t[], and the next kStateWords - 1; before the tick
+BRUME_CONST uint kBindingNewState = 6u;  // likewise; after it
+BRUME_CONST uint kBindingChunks = 28u;    // uint[]: count, then offset of each chunk in its group
+BRUME_CONST uint kBindingGroups = 29u;    // uint[]: count, then offset of each group
 BRUME_CONST uint kBindingTotals = 11u;    // TickTotals[], by instance
 BRUME_CONST uint kBindingEmitters = 12u;  // EmitterParameters[]
 BRUME_CONST uint kBindingBatches = 13u;   // BirthBatch[] of several ticks, or of all instances
@@ -46,6 +44,9 @@ BRUME_CONST uint kBindingChildBatches = 21u;  // BirthBatch[] of the child
 // 22: kBindingFieldValues of field_grid.h
 BRUME_CONST uint kBindingStrands = 23u;       // uint[], before the tick; of effects with ribbons
 BRUME_CONST uint kBindingNewStrands = 24u;    // after it
+BRUME_CONST uint kBindingInstanceTicks = 26u;  // InstanceTick[]: tick, instance; in world space
+BRUME_CONST uint kBindingInstanceNoise = 27u;  // CurlNoiseShift[]: tick, instance, module
+BRUME_CONST uint kBindingAppearance = 25u;    // AppearanceFrame, then AppearancePlace[]
 
 /// One tick, as the CPU knows it beforehand.
 ///
@@ -65,7 +66,7 @@ struct Tick {
     uint overflow;     // births rejected beforehand
     uint slots;        // after the tick no instance has more particles alive
     uint isChild;      // births come from a sub-emitter
-    uint batchStride;  // then: batches of one instance
+    uint batchStride;  // from the batches of one instance to those of the next; 0: the same for all
     TickFields fields;
 };
 
@@ -98,8 +99,21 @@ struct ChildPush {
     uint batchStride;  // of the child's batches, per instance
 };
 
-/// Push constants of the pass that writes the spheres.
-struct AppearancePush {
+/// How the pass that writes the spheres of all instances sees them; in a buffer for the reason
+/// given at Tick.
+struct AppearanceFrame {
+    uint instances;
+    uint capacity;  // of one instance
+    uint lastTick;
+    float sinceTick;         // ticks since the end of lastTick, [0, 1)
+    float sinceTickSeconds;  // the same in seconds
+    uint profile;
+    uint isShadowedWhole;    // else at each place
+    float distanceScale;     // of distances from the camera, for thinning; 0 where there are none
+};
+
+/// Where one instance appears.
+struct AppearancePlace {
     vec3 axisX;  // columns of the affine map from effect space to the camera's space
     vec3 axisY;
     vec3 axisZ;
@@ -107,20 +121,14 @@ struct AppearancePush {
     vec3 originLo;  // what rounding has taken from it
     float radiusScale;
     uint firstSphere;
-    uint lastTick;
     uint medium;
     uint firstId;
-    uint profile;
-    uint isShadowedWhole;  // else at each place
-    uint instance;
-    uint firstSlot;          // of the instance
-    float sinceTick;         // ticks since the end of lastTick, [0, 1)
-    float sinceTickSeconds;  // the same in seconds
 };
 
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(offsetof(brume::shader::AppearancePush, radiusScale) == 60);
+static_assert(sizeof(brume::shader::AppearanceFrame) == 32);
+static_assert(offsetof(brume::shader::AppearancePlace, radiusScale) == 60);
 #endif
 #endif

@@ -253,18 +253,36 @@ BRUME_SHARED Particle spawnParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETE
     return particle;
 }
 
+/// A birth of effect space in the world's: turned with the instance, at `offset`, and as fast as
+/// `velocity` more.
+BRUME_SHARED void placeInWorld(InstanceParameters instance, vec3 offset, vec3 velocity,
+                               BRUME_INOUT(Particle) particle) {
+    vec3 p = particle.position;
+    vec3 v = particle.velocity;
+    BRUME_PRECISE vec3 position =
+        instance.axisX * p.x + instance.axisY * p.y + instance.axisZ * p.z + offset;
+    BRUME_PRECISE vec3 start =
+        instance.axisX * v.x + instance.axisY * v.y + instance.axisZ * v.z + velocity;
+    particle.position = position;
+    particle.velocity = start;
+}
+
 /// A birth of a batch: the emitter moves straight in a tick.
 BRUME_SHARED Particle spawnFromBatch(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
-                                         BRUME_TRIANGLES_PARAMETER RandomStream random,
+                                         BRUME_TRIANGLES_PARAMETER InstanceParameters instance,
                                      EmitterParameters emitter, BirthBatch batch,
                                      uint indexInBatch, uint tick) {
     BRUME_PRECISE float remaining = remainingOf(batch, indexInBatch);
     BRUME_PRECISE vec3 offset = batch.offset - batch.motion * remaining;
     BRUME_PRECISE vec3 velocity =
         batch.motion * emitter.inheritPerTick + batch.velocity * emitter.inheritSpeed;
-    return spawnParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT BRUME_TRIANGLES_ARGUMENT
-                             random, emitter,
-                         batch.firstBirthIndex + indexInBatch, remaining, tick, offset, velocity);
+    bool isWorld = BRUME_IS_WORLD;
+    Particle particle = spawnParticle(
+        BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT BRUME_TRIANGLES_ARGUMENT instance.random,
+        emitter, batch.firstBirthIndex + indexInBatch, remaining, tick,
+        isWorld ? vec3(0.0f) : offset, isWorld ? vec3(0.0f) : velocity);
+    if (isWorld) placeInWorld(instance, offset, velocity, particle);
+    return particle;
 }
 
 BRUME_STRUCTS_END

@@ -11,19 +11,21 @@ layout(set = 0, binding = kBindingTriangles, scalar) readonly buffer TrianglesBl
 #include "children.h"
 
 #include "births.glsl"
+#include "state.glsl"
 
-layout(set = 0, binding = kBindingPositions, scalar) readonly buffer PositionsBlock { vec3 positions[]; };
-layout(set = 0, binding = kBindingVelocities, scalar) readonly buffer VelocitiesBlock { vec3 velocities[]; };
-layout(set = 0, binding = kBindingLives, scalar) readonly buffer LivesBlock { ParticleLife lives[]; };
-layout(set = 0, binding = kBindingBirthIndices, scalar) readonly buffer BirthIndicesBlock { uint birthIndices[]; };
-layout(set = 0, binding = kBindingNewPositions, scalar) writeonly buffer NewPositionsBlock { vec3 newPositions[]; };
-layout(set = 0, binding = kBindingNewVelocities, scalar) writeonly buffer NewVelocitiesBlock { vec3 newVelocities[]; };
-layout(set = 0, binding = kBindingNewLives, scalar) writeonly buffer NewLivesBlock { ParticleLife newLives[]; };
-layout(set = 0, binding = kBindingNewBirthIndices, scalar) writeonly buffer NewBirthIndicesBlock { uint newBirthIndices[]; };
+#define BRUME_NEW_STATE_WORD(k) \
+    layout(set = 0, binding = kBindingNewState + k, scalar) writeonly buffer NewState##k { uint64_t newState##k[]; };
+BRUME_NEW_STATE_WORD(0)
+BRUME_NEW_STATE_WORD(1)
+BRUME_NEW_STATE_WORD(2)
+BRUME_NEW_STATE_WORD(3)
+BRUME_NEW_STATE_WORD(4)
 layout(set = 0, binding = kBindingChunks, scalar) readonly buffer ChunksBlock { uint chunks[]; };
 layout(set = 0, binding = kBindingGroups, scalar) readonly buffer GroupsBlock { uint groups[]; };
 layout(set = 0, binding = kBindingTotals, scalar) buffer TotalsBlock { TickTotals totals[]; };
 layout(set = 0, binding = kBindingInstances, scalar) readonly buffer InstancesBlock { InstanceParameters instances[]; };
+layout(set = 0, binding = kBindingInstanceTicks, scalar) readonly buffer InstanceTicksBlock { InstanceTick instanceTicks[]; };
+layout(set = 0, binding = kBindingInstanceNoise, scalar) readonly buffer InstanceNoiseBlock { CurlNoiseShift instanceNoise[]; };
 layout(set = 0, binding = kBindingStrands, scalar) readonly buffer StrandsBlock { uint strands[]; };
 layout(set = 0, binding = kBindingNewStrands, scalar) writeonly buffer NewStrandsBlock { uint newStrands[]; };
 layout(set = 0, binding = kBindingRecords, scalar) writeonly buffer RecordsBlock { BirthBatch records[]; };
@@ -41,10 +43,14 @@ struct Cursor {
 
 void write(inout Cursor cursor, Particle particle, uint strand) {
     uint slot = cursor.base + cursor.slot;
-    newPositions[slot] = particle.position;
-    newVelocities[slot] = particle.velocity;
-    newLives[slot] = particle.life;
-    newBirthIndices[slot] = particle.birthIndex;
+    vec3 x = particle.position, v = particle.velocity;
+    newState0[slot] = packUint2x32(floatBitsToUint(x.xy));
+    newState1[slot] = packUint2x32(floatBitsToUint(vec2(x.z, v.x)));
+    newState2[slot] = packUint2x32(floatBitsToUint(v.yz));
+    newState3[slot] = packUint2x32(
+        uvec2(particle.life.birthTick, floatBitsToUint(particle.life.birthRemaining)));
+    newState4[slot] = packUint2x32(
+        uvec2(floatBitsToUint(particle.life.lifetimeTicks), particle.birthIndex));
     if (kHasStrands != 0u) newStrands[slot] = strand;
     ++cursor.slot;
     cursor.killed += particle.life.lifetimeTicks == kNotFinite ? 1u : 0u;
@@ -70,17 +76,30 @@ void advance(inout Cursor cursor, StepParameters parameters, InstanceParameters 
     if (survives) write(cursor, particle, strand);
 }
 
-void stepSurvivors(Tick tick, InstanceParameters instance, uvec2 range, inout Cursor cursor) {
+/// In world space instances have origins of their own: returns how far it moves before the tick.
+vec3 takeInstanceTick(inout Tick tick, uint instance) {
+    if (kIsWorld == 0u) return vec3(0);
+    uint i = push.slot * tick.instances + instance;
+    tick.fields.shift = instanceTicks[i].shift;
+    for (uint k = 0u; k < curlNoiseCount; ++k)
+        tick.fields.curlNoise[k] = instanceNoise[i * curlNoiseCount + k];
+    return instanceTicks[i].rebase;
+}
+
+void stepSurvivors(Tick tick, InstanceParameters instance, vec3 rebase, uvec2 range,
+                   inout Cursor cursor) {
     StepParameters parameters = effect.step;
     for (uint i = range.x; i < range.y; ++i) {
         Particle particle;
         uint slot = cursor.base + i;
-        particle.life = lives[slot];
+        particle.life = loadLife(slot, particle.birthIndex);
         bool survives = isAlive(particle.life, tick.index);
         if (survives || kSubEmitterCount > 0u) {
-            particle.position = positions[slot];
-            particle.velocity = velocities[slot];
-            particle.birthIndex = birthIndices[slot];
+            loadMotion(slot, particle.position, particle.velocity);
+            if (kIsWorld != 0u) {
+                precise vec3 position = particle.position - rebase;
+                particle.position = position;
+            }
             uint strand = kHasStrands != 0u ? strands[slot] : 0u;
             advance(cursor, parameters, instance, tick, false, survives, particle, strand);
         }
@@ -94,7 +113,7 @@ void appendBirths(Tick tick, TickTotals before, uint instanceIndex, InstancePara
     uint index = findBatch(range, births.x);
     for (uint i = births.x; i < births.y; ++i) {
         BirthBatch batch = batchOf(range, i, index);
-        Particle particle = spawnFromBatch(instance.random, emitters[batch.emitter], batch,
+        Particle particle = spawnFromBatch(instance, emitters[batch.emitter], batch,
                                            i - batch.first, tick.index);
         bool survives = isAlive(particle.life, tick.index);
         if ((survives || kSubEmitterCount > 0u) && cursor.slot < tick.capacity)
@@ -119,7 +138,8 @@ void main() {
     cursor.recordStride = tick.chunks * tick.instances * tick.chunkSize;
     for (uint k = 0u; k < kSubEmitterCount; ++k) cursor.counts[k] = RecordCount(0u, 0u);
 
-    stepSurvivors(tick, instance, survivorRange(tick, local, before.previousAlive), cursor);
+    vec3 rebase = takeInstanceTick(tick, instanceIndex);
+    stepSurvivors(tick, instance, rebase, survivorRange(tick, local, before.previousAlive), cursor);
     appendBirths(tick, before, instanceIndex, instance,
                  birthRange(tick, local, birthCountOf(tick, before)), cursor);
     if (cursor.killed > 0u) atomicAdd(totals[instanceIndex].counters.killed, cursor.killed);

@@ -55,29 +55,38 @@ struct Surroundings {
     vec3 wind;          // m/s
 };
 
+/// A place as the modules see it.
+BRUME_SHARED vec3 placeOfModules(BRUME_EFFECT_PARAMETER TickFields fields, vec3 position) {
+    BRUME_PRECISE vec3 place = position;
+    if (BRUME_IS_WORLD) place = place + fields.shift;
+    return place;
+}
+
 /// One loop per type of module that depends on the place.
 BRUME_SHARED Surroundings surroundingsAt(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
                                              StepParameters parameters,
                                          TickFields fields, uint noiseSeed, vec3 position) {
     BRUME_PRECISE vec3 acceleration = parameters.acceleration;
     BRUME_PRECISE vec3 wind = parameters.wind;
+    // The noise has its shift in its cells, where it loses nothing.
+    vec3 place = placeOfModules(BRUME_EFFECT_ARGUMENT fields, position);
     for (uint i = 0u; i < BRUME_COUNT(curlNoise); ++i)
         acceleration = acceleration + curlNoiseAcceleration(BRUME_EFFECT.curlNoise[i],
                                                             fields.curlNoise[i], noiseSeed,
                                                             position);
     for (uint i = 0u; i < BRUME_COUNT(attractor); ++i)
-        acceleration = acceleration + attractorAcceleration(BRUME_EFFECT.attractor[i], position);
+        acceleration = acceleration + attractorAcceleration(BRUME_EFFECT.attractor[i], place);
     for (uint i = 0u; i < BRUME_COUNT(vortex); ++i)
-        wind = wind + vortexVelocity(BRUME_EFFECT.vortex[i], position) *
+        wind = wind + vortexVelocity(BRUME_EFFECT.vortex[i], place) *
                           BRUME_EFFECT.vortex[i].weight;
     for (uint i = 0u; i < BRUME_COUNT(velocityField); ++i)
         if (BRUME_EFFECT.velocityField[i].advects == 0u)
             wind = wind + velocityFieldAt(BRUME_FIELDS_ARGUMENT BRUME_EFFECT.velocityField[i],
-                                          position) *
+                                          place) *
                               BRUME_EFFECT.velocityField[i].weight;
     for (uint i = 0u; i < BRUME_COUNT(buoyancy); ++i)
         acceleration = acceleration + buoyancyAcceleration(
-                                          BRUME_FIELDS_ARGUMENT BRUME_EFFECT.buoyancy[i], position);
+                                          BRUME_FIELDS_ARGUMENT BRUME_EFFECT.buoyancy[i], place);
     Surroundings result;
     result.acceleration = acceleration;
     result.wind = wind;
@@ -147,7 +156,7 @@ BRUME_CONST uint kMaxHitsPerTick = 4u;
 /// stays where it was hit, so that nothing is ever passed through.
 BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
                                      StepParameters parameters,
-                                 vec3 start, vec3 startVelocity, float seconds,
+                                 TickFields fields, vec3 start, vec3 startVelocity, float seconds,
                                  BRUME_INOUT(Particle) particle) {
     StepOutcome outcome;
     outcome.hasHit = 0u;
@@ -156,8 +165,9 @@ BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
     outcome.hitVelocity = vec3(0.0f);
     // In locals: glslang does not end where `precise` values go through members of an inout struct
     // in a loop.
-    BRUME_PRECISE vec3 from = start;
-    BRUME_PRECISE vec3 to = particle.position;
+    BRUME_PRECISE vec3 from = placeOfModules(BRUME_EFFECT_ARGUMENT fields, start);
+    BRUME_PRECISE vec3 to = placeOfModules(BRUME_EFFECT_ARGUMENT fields, particle.position);
+    bool isStopped = false;
     BRUME_PRECISE vec3 before = startVelocity;
     BRUME_PRECISE vec3 after = particle.velocity;
     BRUME_PRECISE float left = 1.0f;  // part of `seconds`
@@ -167,6 +177,7 @@ BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
         if (hit.time > 1.0f) break;
         if (hit.response == kResponseWait) {
             to = hit.position;
+            isStopped = true;
             break;
         }
         left = left - left * hit.time;
@@ -201,7 +212,15 @@ BRUME_SHARED StepOutcome collide(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
                 uintBitsToFloat(floatBitsToUint(particle.life.birthRemaining) | 0x80000000u);
         if (isLast) break;
     }
-    particle.position = to;
+    if (BRUME_IS_WORLD) {
+        BRUME_PRECISE vec3 back = to - fields.shift;
+        // What has hit nothing keeps its digits.
+        if (outcome.hasHit != 0u || isStopped) particle.position = back;
+        BRUME_PRECISE vec3 hitPosition = outcome.hitPosition - fields.shift;
+        outcome.hitPosition = hitPosition;
+    } else {
+        particle.position = to;
+    }
     particle.velocity = after;
     return outcome;
 }
@@ -233,14 +252,18 @@ BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAME
     BRUME_PRECISE vec3 middle = start + before * halfSeconds;
     if (BRUME_COUNT(velocityField) > 0u)
         middle = middle +
-                 advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT start) * halfSeconds;
+                 advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT placeOfModules(
+                              BRUME_EFFECT_ARGUMENT fields, start)) *
+                              halfSeconds;
     Surroundings around = surroundingsAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters,
                                          fields, noiseSeed, middle);
     BRUME_PRECISE vec3 end = start;
     vec3 velocity = before;
     integrate(end, velocity, around, seconds, loss, velocityGain, positionGain);
     if (BRUME_COUNT(velocityField) > 0u)
-        end = end + advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT middle) * seconds;
+        end = end + advectionAt(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT placeOfModules(
+                        BRUME_EFFECT_ARGUMENT fields, middle)) *
+                        seconds;
     velocity = dragQuadratically(BRUME_EFFECT_ARGUMENT velocity, halfSeconds);
     if (isStuck(particle.life)) {
         end = start;
@@ -250,10 +273,12 @@ BRUME_SHARED StepOutcome moveParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAME
     particle.position = end;
     particle.velocity = velocity;
     StepOutcome outcome =
-        collide(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, start, before, seconds,
-                particle);
+        collide(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, start, before,
+                seconds, particle);
     for (uint i = 0u; i < BRUME_COUNT(attractor); ++i)
-        if (attractorSwallows(BRUME_EFFECT.attractor[i], start, particle.position))
+        if (attractorSwallows(BRUME_EFFECT.attractor[i],
+                              placeOfModules(BRUME_EFFECT_ARGUMENT fields, start),
+                              placeOfModules(BRUME_EFFECT_ARGUMENT fields, particle.position)))
             particle.life.lifetimeTicks = -1.0f;
     // Devices differ in how they treat denormal numbers, so speeds end long before those.
     particle.velocity = withoutTiny(particle.velocity);
@@ -271,19 +296,28 @@ BRUME_SHARED StepOutcome stepParticle(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAME
                         parameters.positionGain, particle);
 }
 
-/// A part of a tick, as after a birth within it.
-BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
-                                              StepParameters parameters,
-                                          TickFields fields, uint noiseSeed, float part,
-                                          BRUME_INOUT(Particle) particle) {
+/// The parameters of a step over a part of a tick, as after a birth within it.
+BRUME_SHARED StepParameters partOfStep(StepParameters parameters, float part) {
     BRUME_PRECISE float seconds = parameters.tickSeconds * part;
     BRUME_PRECISE float loss, phi1, phi2;
     BRUME_PRECISE float drag = parameters.dragPerTick * part;
     exponentialFactors(drag, parameters.dragHalvings, loss, phi1, phi2);
     BRUME_PRECISE float velocityGain = seconds * phi1;
     BRUME_PRECISE float positionGain = seconds * seconds * phi2;
-    return moveParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT parameters, fields, noiseSeed, seconds, loss,
-                        velocityGain, positionGain, particle);
+    parameters.tickSeconds = seconds;
+    parameters.loss = loss;
+    parameters.velocityGain = velocityGain;
+    parameters.positionGain = positionGain;
+    return parameters;
+}
+
+/// A part of a tick.
+BRUME_SHARED StepOutcome stepParticlePart(BRUME_EFFECT_PARAMETER BRUME_FIELDS_PARAMETER
+                                              StepParameters parameters,
+                                          TickFields fields, uint noiseSeed, float part,
+                                          BRUME_INOUT(Particle) particle) {
+    return stepParticle(BRUME_EFFECT_ARGUMENT BRUME_FIELDS_ARGUMENT partOfStep(parameters, part),
+                        fields, noiseSeed, particle);
 }
 
 BRUME_STRUCTS_END

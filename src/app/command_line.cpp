@@ -62,6 +62,10 @@ void addRender(CLI::App& app, Invocation& invocation) {
         ->check(CLI::Range(1e-3, 1e6))
         ->capture_default_str();
     command->add_option("--seed", a.seed, "Seed of the first effect; the others count on from it");
+    command
+        ->add_option("--particle-budget", a.particleBudget,
+                     "Capacity of all effects together, instead of the scene's")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}));
     command->add_option("--set", a.settings, "Setting of the method, key=value")
         ->allow_extra_args(false);
     command->add_option("--against", a.against,

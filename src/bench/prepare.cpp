@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bench/prepare.hpp>
 #include <core/frame_path.hpp>
+#include <particles/budget.hpp>
 #include <particles/cpu_simulation.hpp>
 #include <particles/surfaces.hpp>
 #include <scene/camera.hpp>
@@ -53,6 +54,7 @@ render::PreparedScene prepareScene(scene::Scene scene, const Log& log, int frame
     render::PreparedScene prepared;
     prepared.scene = std::move(scene);
     prepared.spheres = scene::makeMediumSpheres(prepared.scene.spheres);
+    particles::warnOfCut(particles::applyBudgets(prepared.scene), prepared.scene, log);
     prepareEffects(prepared.scene);
     for (const scene::Volume& volume : prepared.scene.volumes)
         addVolume(volume, frame, log, prepared);
@@ -73,9 +75,10 @@ render::EffectContents simulateOnCpu(const scene::Scene& scene) {
     for (std::size_t i = 0; i < scene.effects.size();) {
         const auto instance = static_cast<std::uint32_t>(i);
         const scene::EffectInstance& root = scene.effects[i];
-        particles::CpuSimulation simulation(root.effect, root.seed, instance);
+        particles::CpuSimulation simulation(root.effect, root.seed, instance, root.placement());
         simulation.advanceTo(root.simulatedSeconds());
         const particles::SimulationState state = simulation.state();
+        const particles::ParticleFrame frame = simulation.frame(root.placed());
         // Its populations are the next entries of the scene.
         for (std::uint32_t p = 0; p < simulation.populationCount(); ++p, ++i) {
             const scene::EffectInstance& effect = scene.effects[i];
@@ -87,12 +90,14 @@ render::EffectContents simulateOnCpu(const scene::Scene& scene) {
                      .population = p,
                      .random = particles::instanceParameters(root.seed, instance, p).random,
                      .sinceTick = simulation.sinceTick()},
-                    root.worldFromEffect, camera, effect.material);
+                    frame, camera, effect.material);
                 if (!mesh.indices.empty()) contents.surfaces.push_back(std::move(mesh));
                 continue;
             }
-            const auto added = simulation.spheres(root.worldFromEffect, effect.medium,
-                                                  static_cast<std::uint32_t>(firstId), p);
+            const particles::Viewer viewer{camera.position,
+                                           camera.type == scene::CameraType::Perspective};
+            const auto added = simulation.spheres(frame, effect.medium,
+                                                  static_cast<std::uint32_t>(firstId), p, viewer);
             contents.spheres.insert(contents.spheres.end(), added.begin(), added.end());
             firstId += simulation.counters(p).born + simulation.counters(p).rejected;
         }

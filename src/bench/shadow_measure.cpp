@@ -232,7 +232,7 @@ std::vector<ShadowRow> measureShadows(gpu::Device& device, const std::string& sc
                                       const ShadowMeasureOptions& options, const Log& log) {
     checkSettings(options);
     render::PreparedScene scene = isolateSun(prepared);
-    const Box3 bounds = render::findTranslucentBounds(scene, {});
+    const Box3 bounds = render::findTranslucentBounds(scene);
     if (bounds.isEmpty())
         throw inputError(kDoing, sceneName, "nothing translucent, allowed are media and glass");
     const ExactShadows exact(scene, scene.scene.lights[0], bounds);

@@ -200,7 +200,9 @@ void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     if (x > most[0] || y > most[1] || z > most[2])
         throw misuse(mPipeline, fmt::format("{}x{}x{} groups, at most {}x{}x{} are allowed", x, y,
                                             z, most[0], most[1], most[2]));
-    if (x > 0 && y > 0 && z > 0) mDevice->vk().vkCmdDispatch(mHandle, x, y, z);
+    if (x == 0 || y == 0 || z == 0) return;
+    ++mDispatchCount;
+    mDevice->vk().vkCmdDispatch(mHandle, x, y, z);
 }
 
 void Commands::dispatchThreads(std::uint64_t threads, std::uint32_t groupSize) {
@@ -213,6 +215,7 @@ void Commands::dispatchThreads(std::uint64_t threads, std::uint32_t groupSize) {
 
 void Commands::dispatchIndirect(const Buffer& arguments, std::uint64_t offset) {
     flush(VK_PIPELINE_BIND_POINT_COMPUTE);
+    ++mDispatchCount;
     mDevice->vk().vkCmdDispatchIndirect(mHandle, arguments.handle(), offset);
 }
 

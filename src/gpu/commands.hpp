@@ -6,6 +6,7 @@
 #include <gpu/image.hpp>
 #include <gpu/pipeline.hpp>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -69,6 +70,7 @@ class Commands {
     /// shaders compute their index as x + y * gl_NumWorkGroups.x * groupSize and check the bound.
     void dispatchThreads(std::uint64_t threads, std::uint32_t groupSize);
     void dispatchIndirect(const Buffer& arguments, std::uint64_t offset = 0);
+    std::uint64_t dispatchCount() const { return mDispatchCount; }  ///< recorded by this object
     void draw(std::uint32_t vertices, std::uint32_t instances = 1, std::uint32_t firstVertex = 0,
               std::uint32_t firstInstance = 0);
     void drawIndirect(const Buffer& arguments, std::uint64_t offset = 0, std::uint32_t draws = 1,
@@ -95,6 +97,16 @@ class Commands {
     /// At most 65536 bytes, a multiple of 4, copied into the command buffer itself.
     void updateBuffer(const Buffer& buffer, const void* data, std::uint64_t bytes,
                       std::uint64_t offset = 0);
+    /// The same for an array of any size, `offset` in bytes.
+    template <typename T>
+    void updateArray(const Buffer& buffer, std::span<const T> values, std::uint64_t offset = 0) {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
+        constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
+        for (std::size_t first = 0; first < values.size(); first += kPerUpdate)
+            updateBuffer(buffer, &values[first],
+                         std::min(kPerUpdate, values.size() - first) * sizeof(T),
+                         offset + first * sizeof(T));
+    }
     void copyBuffer(const Buffer& source, const Buffer& target, std::uint64_t bytes,
                     std::uint64_t sourceOffset = 0, std::uint64_t targetOffset = 0);
     /// Tightly packed rows; the image in TRANSFER_SRC_OPTIMAL, for the other TRANSFER_DST_OPTIMAL.
@@ -143,6 +155,7 @@ class Commands {
     std::array<Bound, kMaxBindings> mBound;  // recording allocates nothing
     std::size_t mBoundCount = 0;
     bool mIsDirty = false;
+    std::uint64_t mDispatchCount = 0;
 };
 
 }  // namespace brume::gpu

@@ -4,6 +4,7 @@
 #include <host/files.hpp>
 #include <host/model.hpp>
 #include <oit/method_info.hpp>
+#include <particles/budget.hpp>
 #include <particles/compiled_effect.hpp>
 #include <render/shadow_casters.hpp>
 #include <scene/loader.hpp>
@@ -75,6 +76,8 @@ void Model::adoptScene(scene::Scene scene) {
     for (const scene::Volume& volume : mPrepared.scene.volumes) addVolumeOf(volume);
     if (!mPrepared.spheres.empty()) mSpheres.push_back({nextId(), 0, mPrepared.spheres.size()});
     BrumeId id = 0;
+    particles::warnOfCut(particles::applyBudgets(mPrepared.scene), mPrepared.scene,
+                         mContext->log());
     for (scene::EffectInstance& effect : mPrepared.scene.effects) {
         if (!effect.isSubEmitter) id = nextId(), ++mRevision;
         effect.key = mRevision;
@@ -218,7 +221,7 @@ std::uint32_t Model::reloadEffects() {
     return static_cast<std::uint32_t>(fresh.size());
 }
 
-Box3 Model::stillBounds() const { return render::findTranslucentBounds(mPrepared, {}); }
+Box3 Model::stillBounds() const { return render::findTranslucentBounds(mPrepared); }
 
 Box3 Model::effectBounds() const {
     Box3 bounds;

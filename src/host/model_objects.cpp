@@ -3,6 +3,7 @@
 #include <host/errors.hpp>
 #include <host/files.hpp>
 #include <host/model.hpp>
+#include <particles/budget.hpp>
 #include <particles/compiled_effect.hpp>
 #include <scene/loader.hpp>
 #include <shadows/store_info.hpp>
@@ -248,6 +249,8 @@ BrumeId Model::addEffect(const BrumeEffect& given) {
     root.key = ++mRevision;
     const std::size_t at = mPrepared.scene.effects.size();
     addEntries(root, at);
+    particles::warnOfCut(particles::applyBudgets(mPrepared.scene), mPrepared.scene,
+                         mContext->log());
     const BrumeId id = nextId();
     for (std::size_t i = at; i < mEffectIds.size(); ++i) mEffectIds[i] = id;
     if (radius > 0) mEffectRadii[at] = radius;

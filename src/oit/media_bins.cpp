@@ -125,11 +125,11 @@ void MediaBins::recordSort(gpu::Commands& commands, const Inputs& inputs,
     };
     run(mIdentityKeys);
     if (!inputs.sphereIdsAscend) {
-        mSort->record(commands, push.keys, push.values, push.count);
+        mSort->record(commands, mKeys, mValues, push.count);
         commands.computeBarrier();
     }
     run(mDistanceKeys);
-    mSort->record(commands, push.keys, push.values, push.count);
+    mSort->record(commands, mKeys, mValues, push.count);
     commands.computeBarrier();
     run(mGather);
 }
@@ -152,7 +152,7 @@ void MediaBins::recordBoxes(gpu::Commands& commands, const Inputs& inputs) const
     };
     if (mBoxSort) {
         run(mBoxKeys);
-        mBoxSort->record(commands, push.keys, push.values, push.count);
+        mBoxSort->record(commands, mBoxKeyValues, mBoxValues, push.count);
         commands.computeBarrier();
     }
     run(mBoxRects);

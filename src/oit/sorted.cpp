@@ -4,7 +4,7 @@
 // Source: T. Porter, T. Duff: "Compositing Digital Images", SIGGRAPH 1984 (the operator).
 // Limits: overlapping media are not mixed and pop when their centres change order; surfaces are
 //         blended after all media, solids after all; coloured transmission is blended by its mean.
-// Cost: 16 bytes per medium; one sort, one raster pass.
+// Cost: 24 bytes per medium; one sort, one raster pass.
 #include <gpu/radix_sort.hpp>
 #include <oit/bindings.hpp>
 #include <oit/layers.hpp>
@@ -64,7 +64,7 @@ void Sorted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
                 .keys = mKeys.deviceAddress(), .order = mOrder.deviceAddress(), .count = mCount});
             commands.dispatch((mCount + 63) / 64);
             commands.computeBarrier();
-            mSort.record(commands, mKeys.deviceAddress(), mOrder.deviceAddress(), mCount);
+            mSort.record(commands, mKeys, mOrder, mCount);
         });
     mLayers.declare(frame, inputs, order);
 }

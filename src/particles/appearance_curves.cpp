@@ -95,6 +95,8 @@ shader::AppearanceParameters appearanceParameters(const scene::Effect& effect) {
             vec3((tintAt(b) - tintAt(a)) / (b - a))};
     }
     addSpeedSegments(effect, p);
+    p.thinningDistance = static_cast<float>(effect.thinning.distance);
+    p.thinningLeast = static_cast<float>(effect.thinning.least);
     return p;
 }
 

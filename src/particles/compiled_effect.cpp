@@ -216,6 +216,7 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
     sums.fields = &packer;
     addModules(effect.modules, sums);
     p.step = stepParameters(sums, effect.tickRate);
+    p.isWorld = effect.isWorldSpace;
     p.appearance = appearanceParameters(effect);
     for (std::size_t i = 0; i < sums.noiseDrifts.size(); ++i)
         compiled.noiseDrifts.push_back({-sums.noiseDrifts[i] * double{p.curlNoise[i].frequency}});
@@ -248,6 +249,13 @@ void addPopulations(const scene::Effect& effect, std::uint32_t parent, std::uint
     const auto index = static_cast<std::uint32_t>(all.size());
     all.push_back(compileOne(effect, parent != CompiledEffect::kNone));
     all[index].parent = parent;
+    if (parent != CompiledEffect::kNone) {
+        if (effect.isWorldSpace && !all[parent].isWorldSpace())
+            throw inputError("setting up an effect", "",
+                             "'space' of a sub-emitter's effect is world below a parent in local "
+                             "space, that of its parent allowed");
+        all[index].parameters.isWorld = all[parent].parameters.isWorld;
+    }
     all[index].subEmitter = sub;
     for (std::uint32_t i = 0; i < effect.subEmitters.size(); ++i) {
         all[index].children.push_back(static_cast<std::uint32_t>(all.size()));
@@ -287,16 +295,20 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
         p.random.seedLow = words.x;
         p.random.seedHigh = words.y;
     }
+    p.axisX = vec3(1, 0, 0);
+    p.axisY = vec3(0, 1, 0);
+    p.axisZ = vec3(0, 0, 1);
     p.noiseSeed = shader::pcg3d(shader::uvec3(p.random.seedLow, p.random.seedHigh, 0)).x;
     return p;
 }
 
-std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick) {
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick, std::uint64_t from) {
     const std::uint64_t window = effect.aliveBound.windowTicks();
     // The indices of children count all that were asked for since tick 0.
     if (effect.subEmitterCount > 0 || window == 0 || tick <= 2 * window) return 0;
     // What was born within a window has met nobody but what was born in the window before that.
     const std::uint64_t start = tick - window;
+    if (start <= from) return 0;
     std::uint64_t births = 0;
     for (std::uint64_t t = start - window; t < tick; ++t) {
         const TickBirths now = effect.schedule.at(t);
@@ -307,11 +319,14 @@ std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick) {
     return start;
 }
 
-shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick) {
+shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick,
+                              const dvec3& shift) {
     shader::TickFields fields{};
+    fields.shift = vec3(shift);
     const double seconds = (static_cast<double>(tick) + 0.5) / effect.tickRate;
     for (std::size_t i = 0; i < effect.noiseDrifts.size(); ++i) {
-        const dvec3 way = effect.noiseDrifts[i].cellsPerSecond * seconds;
+        const dvec3 way = effect.noiseDrifts[i].cellsPerSecond * seconds +
+                          shift * double{effect.parameters.curlNoise[i].frequency};
         const dvec3 cells = glm::floor(way + (way.x + way.y + way.z) / 3);
         const dvec3 rest = way - (cells - (cells.x + cells.y + cells.z) / 6);
         for (int axis = 0; axis < 3; ++axis)
@@ -351,29 +366,32 @@ std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t t
     return hash;
 }
 
-double lengthScale(const dmat4& transform) {
-    return std::cbrt(std::fabs(glm::determinant(dmat3(transform))));
-}
-
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
                                              std::uint64_t ticks, double sinceTick,
-                                             const dmat4& worldFromEffect, std::uint32_t medium,
-                                             std::uint32_t firstId) {
+                                             const ParticleFrame& frame, std::uint32_t medium,
+                                             std::uint32_t firstId,
+                                             const shader::RandomStream& random,
+                                             const std::optional<Viewer>& viewer) {
     std::vector<scene::MediumSphere> spheres;
     spheres.reserve(particles.size());
-    const auto scale = static_cast<float>(lengthScale(worldFromEffect));
+    const auto scale = static_cast<float>(frame.radiusScale);
     const auto lastTick = static_cast<std::uint32_t>(ticks - 1);
     for (const Particle& particle : particles) {
         const auto since = static_cast<float>(sinceTick);
         if (!shader::isShownAt(particle.life, lastTick, since)) continue;
-        const shader::Appearance look = shader::evaluateAppearance(
+        shader::Appearance look = shader::evaluateAppearance(
             effect.parameters, shader::normalisedAge(particle.life, lastTick, since),
             glm::length(particle.velocity));
-        if (!(look.radius > 0 && look.density > 0)) continue;
         const dvec3 place =
             dvec3(particle.position) + dvec3(particle.velocity) * (sinceTick / effect.tickRate);
-        spheres.push_back({.center = transformPoint(worldFromEffect, place),
+        const dvec3 center = transformPoint(frame.worldFromParticles, place);
+        if (viewer && viewer->hasDistance && effect.parameters.appearance.thinningDistance > 0)
+            look = shader::thinOut(effect.parameters, look,
+                                   static_cast<float>(glm::length(center - viewer->position)),
+                                   shader::thinningRank(random, particle.birthIndex));
+        if (!(look.radius > 0 && look.density > 0)) continue;
+        spheres.push_back({.center = center,
                            .radius = look.radius * scale,
                            .density = look.density,
                            .tint = look.tint,

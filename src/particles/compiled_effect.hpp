@@ -4,11 +4,13 @@
 #pragma once
 
 #include <shaders/particles/effect.h>
+#include <particles/instance_space.hpp>
 #include <particles/spawn_schedule.hpp>
 #include <scene/effect.hpp>
 #include <scene/medium_sphere.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,7 @@ struct CompiledEffect {
 
     static constexpr std::uint32_t kNone = 0xffffffffu;
     bool isChild() const { return parent != kNone; }
+    bool isWorldSpace() const { return parameters.isWorld != 0; }
 };
 
 /// The populations of an effect: itself, then those of its sub-emitters, each before its own.
@@ -60,11 +63,14 @@ shader::InstanceParameters instanceParameters(std::uint64_t seed, std::uint32_t 
 
 /// The tick from which a simulation that starts with nothing alive arrives at `tick` with the same
 /// particles, bit by bit, as one that starts at tick 0: the longest lifetime before it. 0 if that is
-/// not certain: the effect has sub-emitters, very long lifetimes, or may have run out of capacity.
-std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick);
+/// not certain: the effect has sub-emitters, very long lifetimes, or may have run out of capacity;
+/// and if it is not later than `from`, where a simulation is already.
+std::uint64_t jumpTick(const CompiledEffect& effect, std::uint64_t tick, std::uint64_t from = 0);
 
-/// What the modules know about a tick, the same for all instances.
-shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick);
+/// What the modules know about a tick, the same for all instances in local space. `shift`: as
+/// InstanceSpace::shiftAt().
+shader::TickFields tickFields(const CompiledEffect& effect, std::uint64_t tick,
+                              const dvec3& shift = dvec3(0));
 
 /// Ticks that are over at `seconds` (>= 0).
 std::uint64_t ticksAt(double seconds, double tickRate);
@@ -78,15 +84,15 @@ std::uint64_t hashParticles(std::span<const Particle> particles, std::uint64_t t
                             std::uint64_t previous = 0xcbf29ce484222325u);
 
 /// The particles as spheres for rendering, `sinceTick` ticks after `ticks` ticks: places and ages
-/// move on by that. Sphere i has id firstId + birth index; radii scale with the cube root of the
-/// transform's determinant. Those without a radius or density are left out.
+/// move on by that. Sphere i has id firstId + birth index; `random` of instanceParameters() and the
+/// viewer decide which are thinned out. Those without a radius or density are
+/// left out.
 std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                                              std::span<const Particle> particles,
                                              std::uint64_t ticks, double sinceTick,
-                                             const dmat4& worldFromEffect, std::uint32_t medium,
-                                             std::uint32_t firstId);
-
-/// Scale of lengths under a transform: the cube root of |det|.
-double lengthScale(const dmat4& transform);
+                                             const ParticleFrame& frame, std::uint32_t medium,
+                                             std::uint32_t firstId,
+                                             const shader::RandomStream& random = {},
+                                             const std::optional<Viewer>& viewer = {});
 
 }  // namespace brume::particles

@@ -9,11 +9,13 @@
 namespace brume::particles {
 
 CpuSimulation::CpuSimulation(const scene::Effect& effect, std::uint64_t seed,
-                             std::uint32_t instance) {
+                             std::uint32_t instance, const scene::Placement& placement)
+    : mSpace(placement, effect.tickRate) {
     for (CompiledEffect& compiled : compileEffect(effect)) {
         Population& population = mPopulations.emplace_back(Population{.effect = compiled});
         population.instance = instanceParameters(
             seed, instance, static_cast<std::uint32_t>(mPopulations.size() - 1));
+        mSpace.setAxes(population.instance);
     }
 }
 
@@ -27,10 +29,17 @@ void CpuSimulation::step(std::uint64_t ticks) {
 }
 
 void CpuSimulation::stepPopulation(Population& population) {
-    const shader::TickFields fields = tickFields(population.effect, mTick);
-    const TickBirths births = population.effect.isChild()
-                                  ? std::exchange(population.asked, {})
-                                  : population.effect.schedule.at(mTick);
+    const bool isWorld = population.effect.isWorldSpace();
+    const shader::TickFields fields =
+        tickFields(population.effect, mTick, isWorld ? mSpace.shiftAt(mTick) : dvec3(0));
+    TickBirths births = population.effect.isChild() ? std::exchange(population.asked, {})
+                                                    : population.effect.schedule.at(mTick);
+    if (isWorld) {
+        const vec3 rebase(mSpace.rebaseAt(mTick));
+        for (Particle& particle : population.particles) particle.position -= rebase;
+        if (!population.effect.isChild())
+            for (shader::BirthBatch& batch : births.batches) mSpace.place(batch, mTick);
+    }
     stepSurvivors(population, fields);
     appendBirths(population, fields, births);
     population.counters.alive = static_cast<std::uint32_t>(population.particles.size());
@@ -91,7 +100,7 @@ void CpuSimulation::appendBirths(Population& population, const shader::TickField
         for (std::uint32_t i = 0; i < batch.count; ++i) {
             Particle particle =
                 shader::spawnFromBatch(effect.parameters, effect.fieldValues.data(),
-                                       effect.triangles.data(), population.instance.random,
+                                       effect.triangles.data(), population.instance,
                                        effect.emitters[batch.emitter], batch, i, tick);
             const bool survives = shader::isAlive(particle.life, tick);
             const bool isFull = population.particles.size() == effect.capacity;
@@ -121,7 +130,7 @@ void CpuSimulation::restart() {
 }
 
 void CpuSimulation::jump(std::uint64_t target) {
-    const std::uint64_t tick = jumpTick(effect(), target);
+    const std::uint64_t tick = jumpTick(effect(), target, mTick);
     if (tick <= mTick) return;
     restart();
     mTick = tick;
@@ -164,12 +173,17 @@ void CpuSimulation::restore(const SimulationState& state) {
     }
 }
 
-std::vector<scene::MediumSphere> CpuSimulation::spheres(const dmat4& worldFromEffect,
+ParticleFrame CpuSimulation::frame(const dmat4& worldFromEffect) const {
+    return effect().isWorldSpace() ? mSpace.frameAt(mTick) : ParticleFrame(worldFromEffect);
+}
+
+std::vector<scene::MediumSphere> CpuSimulation::spheres(const ParticleFrame& frame,
                                                         std::uint32_t medium,
                                                         std::uint32_t firstId,
-                                                        std::uint32_t population) const {
-    return makeSpheres(effect(population), particles(population), mTick, mSinceTick,
-                       worldFromEffect, medium, firstId);
+                                                        std::uint32_t population,
+                                                        const std::optional<Viewer>& viewer) const {
+    return makeSpheres(effect(population), particles(population), mTick, mSinceTick, frame, medium,
+                       firstId, mPopulations[population].instance.random, viewer);
 }
 
 }  // namespace brume::particles

@@ -12,7 +12,8 @@ namespace brume::particles {
 class CpuSimulation {
   public:
     /// Throws an input Error as compileEffect().
-    CpuSimulation(const scene::Effect& effect, std::uint64_t seed, std::uint32_t instance = 0);
+    CpuSimulation(const scene::Effect& effect, std::uint64_t seed, std::uint32_t instance = 0,
+                  const scene::Placement& placement = {});
 
     void step(std::uint64_t ticks);
 
@@ -39,14 +40,20 @@ class CpuSimulation {
     }
     std::uint64_t hash() const;  ///< of all populations
 
+    /// Where its particles are now; `worldFromEffect`: where the instance is, for local space.
+    ParticleFrame frame(const dmat4& worldFromEffect) const;
+    /// In world space: the world counts from another point now; nothing moves.
+    void rebase(const dvec3& newOrigin) { mSpace.rebase(newOrigin); }
+
     SimulationState state() const;
     /// Goes on from a state of the same effect.
     void restore(const SimulationState& state);
 
     /// As makeSpheres(), of one population, at the time of the last advanceTo().
-    std::vector<scene::MediumSphere> spheres(const dmat4& worldFromEffect, std::uint32_t medium,
+    std::vector<scene::MediumSphere> spheres(const ParticleFrame& frame, std::uint32_t medium,
                                              std::uint32_t firstId,
-                                             std::uint32_t population = 0) const;
+                                             std::uint32_t population = 0,
+                                             const std::optional<Viewer>& viewer = {}) const;
 
   private:
     struct Population {
@@ -70,6 +77,7 @@ class CpuSimulation {
     void jump(std::uint64_t target);
 
     std::vector<Population> mPopulations;
+    InstanceSpace mSpace;  // of effects in world space
     std::uint64_t mTick = 0;
     double mSinceTick = 0;
 };

@@ -12,7 +12,7 @@
 namespace brume::particles {
 
 std::vector<std::uint32_t> GpuPopulation::specialization() const {
-    std::vector<std::uint32_t> values(34, 0);
+    std::vector<std::uint32_t> values(36, 0);
     values[0] = mWorkgroupSize;
 #define BRUME_SPECIALIZE(Type, member, constant) \
     values[constant] = mEffect.parameters.member##Count;
@@ -20,6 +20,8 @@ std::vector<std::uint32_t> GpuPopulation::specialization() const {
 #undef BRUME_SPECIALIZE
     values[32] = mEffect.subEmitterCount;
     values[33] = mEffect.hasStrands;
+    values[34] = mEffect.isWorldSpace();
+    values[35] = mEffect.parameters.appearance.thinningDistance > 0;
     return values;
 }
 
@@ -30,14 +32,18 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
         gpu::ComputePipelineDesc desc;
         desc.name = name;
         desc.spirv = spirv;
-        for (const std::uint32_t number : bindings) desc.bindings.push_back({.number = number});
+        for (const std::uint32_t number : bindings) {
+            const bool isState = number == kBindingState || number == kBindingNewState;
+            for (std::uint32_t word = 0; word < (isState ? kStateWords : 1); ++word)
+                desc.bindings.push_back({.number = number + word});
+        }
         desc.pushConstantBytes = static_cast<std::uint32_t>(pushBytes);
         desc.specialization = specialization();
         return gpu::ComputePipeline(device, desc);
     };
     constexpr std::size_t kTickBytes = sizeof(TickPush), kChildBytes = sizeof(ChildPush);
     mCount = make("particles.count", spv::particles_count_comp,
-                  {kBindingEffect, kBindingLives, kBindingChunks, kBindingTotals, kBindingEmitters,
+                  {kBindingEffect, kBindingState, kBindingChunks, kBindingTotals, kBindingEmitters,
                    kBindingBatches, kBindingTicks, kBindingInstances, kBindingTriangles,
                    kBindingFieldValues},
                   kTickBytes);
@@ -46,20 +52,16 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
     mTotalsPass = make("particles.totals", spv::particles_totals_comp,
                        {kBindingGroups, kBindingTotals, kBindingTicks}, kTickBytes);
     mStep = make("particles.step", spv::particles_step_comp,
-                 {kBindingEffect,        kBindingPositions,     kBindingVelocities,
-                  kBindingLives,         kBindingBirthIndices,  kBindingNewPositions,
-                  kBindingNewVelocities, kBindingNewLives,      kBindingNewBirthIndices,
-                  kBindingChunks,        kBindingGroups,        kBindingTotals,
-                  kBindingEmitters,      kBindingBatches,       kBindingTicks,
-                  kBindingInstances,     kBindingTriangles,     kBindingRecords,
-                  kBindingRecordCounts,  kBindingFieldValues,   kBindingStrands,
-                  kBindingNewStrands},
+                 {kBindingEffect, kBindingState, kBindingNewState, kBindingChunks, kBindingGroups,
+                  kBindingTotals, kBindingEmitters, kBindingBatches, kBindingTicks,
+                  kBindingInstances, kBindingTriangles, kBindingRecords, kBindingRecordCounts,
+                  kBindingFieldValues, kBindingStrands, kBindingNewStrands, kBindingInstanceTicks,
+                  kBindingInstanceNoise},
                  kTickBytes);
     mAppearance = make("particles.appearance", spv::particles_appearance_comp,
-                       {kBindingEffect, kBindingPositions, kBindingVelocities, kBindingLives,
-                        kBindingBirthIndices, kBindingTotals, kBindingParticleSpheres,
-                        kBindingFieldValues},
-                       sizeof(AppearancePush));
+                       {kBindingEffect, kBindingState, kBindingTotals, kBindingParticleSpheres,
+                        kBindingFieldValues, kBindingAppearance, kBindingInstances},
+                       0);
     if (mEffect.subEmitterCount == 0) return;
     mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,
                          {kBindingTicks, kBindingRecordCounts, kBindingChildTotals}, kChildBytes);

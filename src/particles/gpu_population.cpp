@@ -9,7 +9,12 @@
 #include <numeric>
 
 namespace brume::particles {
+
+using shader::kStateWords;
+
 namespace {
+
+static_assert(sizeof(Particle) == kStateWords * sizeof(std::uint64_t));
 
 std::uint32_t divideUp(std::uint64_t a, std::uint64_t b) {
     return static_cast<std::uint32_t>((a + b - 1) / b);
@@ -39,25 +44,21 @@ std::uint32_t chooseChunkSize(const gpu::Device& device, const CompiledEffect& e
                               std::uint32_t instances, std::uint32_t wanted) {
     constexpr std::uint32_t kMaxLoops = 45000, kMaxChunks = 32768;
     const std::uint64_t all = std::uint64_t{effect.capacity} * instances;
-    const auto usual = static_cast<std::uint32_t>(
-        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 16, 512) : 16);
+    auto usual = static_cast<std::uint32_t>(
+        device.isLavapipe() ? std::clamp<std::uint64_t>(all / 512, 4, 1000) : 16);
+    // Neighbouring chunks should not begin in the same sets of the caches.
+    if (usual % 64 == 0) usual += 8;
     const std::uint32_t most = std::max(1u, kMaxLoops / loopsPerParticle(effect));
     // The pass over the chunks of an instance is serial in two places.
     const std::uint32_t least = divideUp(effect.capacity, kMaxChunks);
     return std::max(std::min(wanted ? wanted : usual, most), least);
 }
 
-/// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects.
-constexpr std::uint32_t kTicksPerPart = 128;
-
-/// Writes an array by way of the command buffer, which takes 64 KiB at a time.
-template <typename T>
-void updateArray(gpu::Commands& commands, const gpu::Buffer& buffer, const std::vector<T>& values) {
-    constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
-    for (std::size_t first = 0; first < values.size(); first += kPerUpdate) {
-        const std::size_t count = std::min(kPerUpdate, values.size() - first);
-        commands.updateBuffer(buffer, &values[first], count * sizeof(T), first * sizeof(T));
-    }
+/// Ticks whose parameters are uploaded at once; chosen by us, a second of most effects. Fewer where
+/// each instance has its own.
+std::uint32_t ticksPerPart(const CompiledEffect& effect, std::uint32_t instances) {
+    constexpr std::uint32_t kMost = 128, kMostOfInstances = 1u << 16u;
+    return effect.isWorldSpace() ? std::clamp(kMostOfInstances / instances, 1u, kMost) : kMost;
 }
 
 template <typename T>
@@ -82,14 +83,18 @@ GpuPopulation::GpuPopulation(gpu::Device& device, CompiledEffect effect, std::ui
     : mEffect(std::move(effect)),
       mAliveBound(mEffect.aliveBound),
       mInstanceCount(static_cast<std::uint32_t>(instances.size())),
+      mTimers(options.timers),
       mWorkgroupSize(options.workgroupSize),
       mChunkSize(chooseChunkSize(device, mEffect, mInstanceCount, options.chunkSize)) {
     BRUME_ASSERT_LT(0u, mInstanceCount);
-    std::vector<shader::InstanceParameters> parameters;
-    for (const EffectInstance& one : instances)
-        parameters.push_back(instanceParameters(one.seed, one.instance, population));
+    for (const EffectInstance& one : instances) {
+        mInstanceData.push_back(instanceParameters(one.seed, one.instance, population));
+        if (mEffect.isWorldSpace())
+            InstanceSpace(one.placement, mEffect.tickRate).setAxes(mInstanceData.back());
+    }
+    mTicksPerPart = ticksPerPart(mEffect, mInstanceCount);
     mInstances = makeFilledBuffer<shader::InstanceParameters>(device, "particles.instances",
-                                                              parameters);
+                                                              mInstanceData);
     mBatchStride = parent ? static_cast<std::uint32_t>(parent->maxRecords()) : 0;
     makeBuffers(device);
     makePipelines(device);
@@ -110,10 +115,11 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     constexpr std::uint32_t kUsualBatches = 2048;
     mBatchCapacity = mEffect.isChild()
                          ? mBatchStride * mInstanceCount
-                         : std::max(kUsualBatches, mEffect.schedule.maxBatchesPerTick());
+                         : static_cast<std::uint32_t>(
+                               std::max<std::uint64_t>(kUsualBatches, maxBatches()));
 
     const std::uint64_t largest =
-        std::max({all * sizeof(vec3), records * sizeof(shader::BirthBatch),
+        std::max({all * sizeof(std::uint64_t), records * sizeof(shader::BirthBatch),
                   mBatchCapacity * std::uint64_t{sizeof(shader::BirthBatch)}});
     if (largest > device.limits().maxStorageBufferRange)
         throw inputError(
@@ -122,9 +128,16 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
                         "allowed on this device",
                         mEffect.capacity, mInstanceCount, largest,
                         device.limits().maxStorageBufferRange));
-    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets()[5]);
-    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets()[5]);
-    mTicks = makeBuffer(device, "particles.ticks", kTicksPerPart * sizeof(shader::Tick));
+    mStates[0] = makeBuffer(device, "particles.stateA", stateOffsets().back());
+    mStates[1] = makeBuffer(device, "particles.stateB", stateOffsets().back());
+    mTicks = makeBuffer(device, "particles.ticks", mTicksPerPart * sizeof(shader::Tick));
+    const std::uint64_t instanceTicks =
+        mEffect.isWorldSpace() ? std::uint64_t{mTicksPerPart} * mInstanceCount : 0;
+    mInstanceTicks = makeBuffer(device, "particles.instance_ticks",
+                                instanceTicks * sizeof(shader::InstanceTick));
+    mInstanceNoise = makeBuffer(
+        device, "particles.instance_noise",
+        instanceTicks * mEffect.parameters.curlNoiseCount * sizeof(shader::CurlNoiseShift));
     mChunks = makeBuffer(device, "particles.chunks", chunks * 4);
     mGroups = makeBuffer(device, "particles.groups", groups * 4);
     mTotals =
@@ -132,6 +145,10 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     mRecords = makeBuffer(device, "particles.records", records * sizeof(shader::BirthBatch));
     mRecordCounts = makeBuffer(device, "particles.record_counts",
                                mEffect.subEmitterCount * chunks * sizeof(shader::RecordCount));
+    mAppearanceData =
+        makeBuffer(device, "particles.appearance",
+                   sizeof(shader::AppearanceFrame) +
+                       mInstanceCount * std::uint64_t{sizeof(shader::AppearancePlace)});
     mBatches = makeBuffer(device, "particles.batches", mBatchCapacity * sizeof(shader::BirthBatch));
     mParameters = makeFilledBuffer<shader::EffectParameters>(device, "particles.parameters",
                                                              {&mEffect.parameters, 1});
@@ -142,23 +159,22 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
     mFieldValues = makeFilledBuffer<float>(device, "particles.fields", mEffect.fieldValues);
 }
 
-std::array<std::uint64_t, 6> GpuPopulation::stateOffsets() const {
-    constexpr std::array<std::uint64_t, 5> kSizes = {sizeof(vec3), sizeof(vec3),
-                                                     sizeof(shader::ParticleLife),
-                                                     sizeof(std::uint32_t), sizeof(std::uint32_t)};
-    std::array<std::uint64_t, 6> offsets{};
+std::array<std::uint64_t, kStateWords + 2> GpuPopulation::stateOffsets() const {
+    std::array<std::uint64_t, kStateWords + 2> offsets{};
     // Bindings begin at multiples of 256 bytes, and none is empty.
     const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
-    for (std::size_t i = 0; i < kSizes.size(); ++i) {
-        const std::uint64_t count = i + 1 < kSizes.size() || mEffect.hasStrands ? all : 1;
-        offsets[i + 1] = offsets[i] + (kSizes[i] * count + 255) / 256 * 256;
+    for (std::size_t i = 0; i <= kStateWords; ++i) {
+        const std::uint64_t bytes = i < kStateWords      ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint64_t)
+                                    : mEffect.hasStrands ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint32_t)
+                                                         : 1;
+        offsets[i + 1] = offsets[i] + (bytes + 255) / 256 * 256;
     }
     return offsets;
 }
 
-gpu::BufferRange GpuPopulation::stateRange(std::uint32_t state, std::uint32_t field) const {
+gpu::BufferRange GpuPopulation::stateRange(std::uint32_t state, std::uint32_t array) const {
     const auto offsets = stateOffsets();
-    return {&mStates[state], offsets[field], offsets[field + 1] - offsets[field]};
+    return {&mStates[state], offsets[array], offsets[array + 1] - offsets[array]};
 }
 
 const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
@@ -175,6 +191,9 @@ const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
         case shader::kBindingFieldValues: return &mFieldValues;
         case shader::kBindingRecords: return &mRecords;
         case shader::kBindingRecordCounts: return &mRecordCounts;
+        case shader::kBindingAppearance: return &mAppearanceData;
+        case shader::kBindingInstanceTicks: return &mInstanceTicks;
+        case shader::kBindingInstanceNoise: return &mInstanceNoise;
         default: return nullptr;
     }
 }
@@ -185,15 +204,15 @@ void GpuPopulation::bindAll(gpu::Commands& commands, const gpu::ComputePipeline&
         const std::uint32_t number = binding.number;
         if (const gpu::Buffer* buffer = bufferOf(number))
             commands.bind(number, *buffer);
-        else if (number >= shader::kBindingPositions && number <= shader::kBindingBirthIndices)
-            commands.bind(number, stateRange(mCurrent, number - shader::kBindingPositions));
-        else if (number >= shader::kBindingNewPositions &&
-                 number <= shader::kBindingNewBirthIndices)
-            commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewPositions));
+        else if (number >= shader::kBindingState && number < shader::kBindingState + kStateWords)
+            commands.bind(number, stateRange(mCurrent, number - shader::kBindingState));
+        else if (number >= shader::kBindingNewState &&
+                 number < shader::kBindingNewState + kStateWords)
+            commands.bind(number, stateRange(1 - mCurrent, number - shader::kBindingNewState));
         else if (number == shader::kBindingStrands)
-            commands.bind(number, stateRange(mCurrent, 4));
+            commands.bind(number, stateRange(mCurrent, kStateWords));
         else if (number == shader::kBindingNewStrands)
-            commands.bind(number, stateRange(1 - mCurrent, 4));
+            commands.bind(number, stateRange(1 - mCurrent, kStateWords));
     }
 }
 
@@ -201,7 +220,8 @@ std::uint64_t GpuPopulation::bytes() const {
     std::uint64_t sum = 0;
     for (const gpu::Buffer* buffer :
          {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles,
-          &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts})
+          &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts,
+          &mAppearanceData, &mInstanceTicks, &mInstanceNoise})
         sum += buffer->bytes();
     return sum;
 }
@@ -224,21 +244,53 @@ void GpuPopulation::restart(std::uint64_t tick) {
         mAliveBound.addTick(mEffect.schedule.at(t).count);
 }
 
-const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks) {
+std::uint64_t GpuPopulation::maxBatches() const {
+    return std::uint64_t{mEffect.schedule.maxBatchesPerTick()} *
+           (mEffect.isWorldSpace() ? mInstanceCount : 1);
+}
+
+const TickPart& GpuPopulation::schedulePart(std::uint64_t firstTick, std::uint64_t maxTicks,
+                                            std::span<const InstanceSpace> spaces) {
     TickPart& part = mPart;  // keeps its memory: a steady frame allocates nothing
     part.ticks.clear();
     part.batches.clear();
-    maxTicks = std::min<std::uint64_t>(maxTicks, kTicksPerPart);
+    part.instances.clear();
+    part.noise.clear();
+    maxTicks = std::min<std::uint64_t>(maxTicks, mTicksPerPart);
     while (part.ticks.size() < maxTicks &&
-           part.batches.size() + mEffect.schedule.maxBatchesPerTick() <= mBatchCapacity) {
+           (mEffect.isChild() || part.batches.size() + maxBatches() <= mBatchCapacity)) {
         const std::uint64_t tick = firstTick + part.ticks.size();
         if (!mEffect.isChild()) mEffect.schedule.at(tick, mBirths);
-        const TickBirths& births = mBirths;
         part.ticks.push_back(
-            makeTick(tick, births, static_cast<std::uint32_t>(part.batches.size())));
-        part.batches.insert(part.batches.end(), births.batches.begin(), births.batches.end());
+            makeTick(tick, mBirths, static_cast<std::uint32_t>(part.batches.size())));
+        addBatches(tick, spaces);
+        if (mEffect.isWorldSpace()) addInstanceTicks(tick, spaces);
     }
     return part;
+}
+
+void GpuPopulation::addBatches(std::uint64_t tick, std::span<const InstanceSpace> spaces) {
+    std::vector<shader::BirthBatch>& batches = mPart.batches;
+    if (!mEffect.isWorldSpace()) {
+        batches.insert(batches.end(), mBirths.batches.begin(), mBirths.batches.end());
+        return;
+    }
+    for (const InstanceSpace& space : spaces)
+        for (const shader::BirthBatch& batch : mBirths.batches) {
+            batches.push_back(batch);
+            space.place(batches.back(), tick);
+        }
+}
+
+void GpuPopulation::addInstanceTicks(std::uint64_t tick, std::span<const InstanceSpace> spaces) {
+    for (const InstanceSpace& space : spaces) {
+        const dvec3 shift = space.shiftAt(tick);
+        mPart.instances.push_back({vec3(space.rebaseAt(tick)), vec3(shift)});
+        if (mEffect.parameters.curlNoiseCount == 0) continue;
+        const shader::TickFields fields = tickFields(mEffect, tick, shift);
+        mPart.noise.insert(mPart.noise.end(), fields.curlNoise,
+                           fields.curlNoise + mEffect.parameters.curlNoiseCount);
+    }
 }
 
 shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& births,
@@ -261,7 +313,9 @@ shader::Tick GpuPopulation::makeTick(std::uint64_t index, const TickBirths& birt
     if (!mEffect.isChild()) mAliveBound.addTick(births.count);
     tick.slots = slotCount();
     tick.isChild = mEffect.isChild();
-    tick.batchStride = mBatchStride;
+    tick.batchStride = mEffect.isChild()        ? mBatchStride
+                       : mEffect.isWorldSpace() ? tick.batchCount
+                                                : 0;
     tick.fields = tickFields(mEffect, index);
     return tick;
 }
@@ -273,27 +327,37 @@ void GpuPopulation::recordClear(gpu::Commands& commands, std::uint64_t tick) con
     totals.counters.born = static_cast<std::uint32_t>(mEffect.schedule.birthsBefore(tick));
     totals.counters.died = totals.counters.born;
     commands.computeTransferBarrier();
-    updateArray(commands, mTotals, std::vector(mInstanceCount, totals));
+    commands.updateArray<shader::TickTotals>(mTotals, std::vector(mInstanceCount, totals));
 }
 
 void GpuPopulation::recordUpload(gpu::Commands& commands, const TickPart& part) const {
-    updateArray(commands, mTicks, part.ticks);
-    updateArray(commands, mBatches, part.batches);
+    commands.updateArray<shader::Tick>(mTicks, part.ticks);
+    commands.updateArray<shader::BirthBatch>(mBatches, part.batches);
+    commands.updateArray<shader::InstanceTick>(mInstanceTicks, part.instances);
+    commands.updateArray<shader::CurlNoiseShift>(mInstanceNoise, part.noise);
+}
+
+void GpuPopulation::recordAxes(gpu::Commands& commands, std::span<const InstanceSpace> spaces) {
+    for (std::size_t i = 0; i < spaces.size(); ++i) spaces[i].setAxes(mInstanceData[i]);
+    commands.updateArray<shader::InstanceParameters>(mInstances, mInstanceData);
 }
 
 void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick,
                                std::uint32_t slot) {
-    const auto dispatch = [&](const gpu::ComputePipeline& pipeline, std::uint64_t threads) {
+    const auto dispatch = [&](const char* name, const gpu::ComputePipeline& pipeline,
+                              std::uint64_t threads) {
         if (threads == 0) return;
+        const std::size_t scope = mTimers ? mTimers->begin(commands, name) : 0;
         bindAll(commands, pipeline);
         commands.pushConstants(shader::TickPush{slot});
         commands.dispatchThreads(threads, mWorkgroupSize);
         commands.computeBarrier();
+        if (mTimers) mTimers->end(commands, scope);
     };
-    dispatch(mCount, std::uint64_t{tick.chunks} * mInstanceCount);
-    dispatch(mOffsets, std::uint64_t{tick.groups} * mInstanceCount);
-    dispatch(mTotalsPass, mInstanceCount);
-    dispatch(mStep, std::uint64_t{tick.chunks} * mInstanceCount);
+    dispatch("particles.count", mCount, std::uint64_t{tick.chunks} * mInstanceCount);
+    dispatch("particles.offsets", mOffsets, std::uint64_t{tick.groups} * mInstanceCount);
+    dispatch("particles.totals", mTotalsPass, mInstanceCount);
+    dispatch("particles.step", mStep, std::uint64_t{tick.chunks} * mInstanceCount);
     mCurrent = 1 - mCurrent;
 }
 
@@ -317,13 +381,16 @@ void GpuPopulation::recordChildren(gpu::Commands& commands, const shader::Tick& 
     dispatch(mChildBatches, std::uint64_t{tick.chunks} * mInstanceCount);
 }
 
-void GpuPopulation::recordAppearance(gpu::Commands& commands, const gpu::Buffer& spheres,
-                                     const shader::AppearancePush& push) const {
-    bindAll(commands, mAppearance);
-    commands.bind(shader::kBindingParticleSpheres, spheres);
-    commands.pushConstants(push);
-    commands.dispatchThreads(slotCount(), mWorkgroupSize);
-    commands.computeBarrier();
+Counters GpuPopulation::readCounters(gpu::Submitter& submitter) const {
+    Counters sum{};
+    for (const auto& totals : submitter.readBuffer<shader::TickTotals>(mTotals, mInstanceCount)) {
+        sum.alive += totals.counters.alive;
+        sum.born += totals.counters.born;
+        sum.died += totals.counters.died;
+        sum.rejected += totals.counters.rejected;
+        sum.killed += totals.counters.killed;
+    }
+    return sum;
 }
 
 std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
@@ -336,16 +403,16 @@ std::vector<Particle> GpuPopulation::readParticles(gpu::Submitter& submitter,
     const gpu::Buffer& state = mStates[mCurrent];
     const auto offsets = stateOffsets();
     const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
-    const auto read = [&]<typename T>(std::size_t field, T) {
-        return submitter.readBuffer<T>(state, particles.size(), offsets[field] + first * sizeof(T));
+    const auto read = [&]<typename T>(std::size_t array, T) {
+        return submitter.readBuffer<T>(state, particles.size(), offsets[array] + first * sizeof(T));
     };
-    const auto positions = read(0, vec3());
-    const auto velocities = read(1, vec3());
-    const auto lives = read(2, shader::ParticleLife());
-    const auto indices = read(3, std::uint32_t());
-    if (mEffect.hasStrands) strands = read(4, std::uint32_t());
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        particles[i] = {positions[i], velocities[i], lives[i], indices[i]};
+    for (std::size_t word = 0; word < kStateWords; ++word) {
+        const auto words = read(word, std::uint64_t());
+        for (std::size_t i = 0; i < particles.size(); ++i)
+            std::memcpy(reinterpret_cast<char*>(&particles[i]) + word * sizeof words[i], &words[i],
+                        sizeof words[i]);
+    }
+    if (mEffect.hasStrands) strands = read(kStateWords, std::uint32_t());
     return particles;
 }
 
@@ -356,28 +423,18 @@ void GpuPopulation::writeParticles(gpu::Submitter& submitter, std::uint32_t inst
     BRUME_ASSERT_LE(particles.size(), mEffect.capacity);
     const auto offsets = stateOffsets();
     const std::uint64_t first = std::uint64_t{instance} * mEffect.capacity;
-    std::vector<vec3> positions, velocities;
-    std::vector<shader::ParticleLife> lives;
-    std::vector<std::uint32_t> indices;
-    for (const Particle& p : particles) {
-        positions.push_back(p.position);
-        velocities.push_back(p.velocity);
-        lives.push_back(p.life);
-        indices.push_back(p.birthIndex);
-    }
+    std::array<std::vector<std::uint64_t>, kStateWords> words;
+    for (const Particle& p : particles)
+        for (std::size_t word = 0; word < kStateWords; ++word)
+            std::memcpy(&words[word].emplace_back(),
+                        reinterpret_cast<const char*>(&p) + word * sizeof(std::uint64_t),
+                        sizeof(std::uint64_t));
     submitter.submitAndWait("particles.restore", [&](gpu::Commands& commands) {
-        const auto write = [&]<typename T>(std::size_t field, const std::vector<T>& values) {
-            constexpr std::size_t kPerUpdate = 65536 / sizeof(T);
-            for (std::size_t i = 0; i < values.size(); i += kPerUpdate)
-                commands.updateBuffer(mStates[mCurrent], &values[i],
-                                      std::min(kPerUpdate, values.size() - i) * sizeof(T),
-                                      offsets[field] + (first + i) * sizeof(T));
+        const auto write = [&]<typename T>(std::size_t array, const std::vector<T>& values) {
+            commands.updateArray<T>(mStates[mCurrent], values, offsets[array] + first * sizeof(T));
         };
-        write(0, positions);
-        write(1, velocities);
-        write(2, lives);
-        write(3, indices);
-        if (mEffect.hasStrands) write(4, strands);
+        for (std::size_t word = 0; word < kStateWords; ++word) write(word, words[word]);
+        if (mEffect.hasStrands) write(kStateWords, strands);
         shader::TickTotals totals{};
         totals.counters = counters;
         totals.slots = slotCount();

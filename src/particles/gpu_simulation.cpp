@@ -16,6 +16,8 @@ GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect,
         mPopulations.push_back(std::make_unique<GpuPopulation>(
             device, std::move(compiled), population, instances, options, parent));
     }
+    if (!this->effect().isWorldSpace()) return;
+    for (const EffectInstance& one : instances) mSpaces.emplace_back(one.placement, effect.tickRate);
 }
 
 GpuSimulation::GpuSimulation(gpu::Device& device, const scene::Effect& effect, std::uint64_t seed,
@@ -28,14 +30,31 @@ void GpuSimulation::restart(std::uint64_t tick) {
     mMustClear = true;
 }
 
-void GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds) {
+ParticleFrame GpuSimulation::frame(std::uint32_t instance, const dmat4& worldFromEffect) const {
+    return mSpaces.empty() ? ParticleFrame(worldFromEffect) : mSpaces[instance].frameAt(mTick);
+}
+
+void GpuSimulation::moveTo(std::uint32_t instance, const dmat4& worldFromEffect, double seconds) {
+    if (mSpaces.empty()) return;
+    const std::uint64_t target = ticksAt(seconds, effect().tickRate);
+    mMustTurn |= mSpaces[instance].moveTo(worldFromEffect, mTick, target);
+}
+
+void GpuSimulation::rebase(const dvec3& newOrigin) {
+    for (InstanceSpace& space : mSpaces) space.rebase(newOrigin);
+}
+
+std::uint64_t GpuSimulation::recordAdvanceTo(gpu::Commands& commands, double seconds,
+                                             std::uint64_t maxTicks) {
     const double tickRate = effect().tickRate;
     const std::uint64_t target = ticksAt(seconds, tickRate);
     if (target < mTick) restart(0);
-    const std::uint64_t jump = jumpTick(effect(), target);
+    const std::uint64_t jump = jumpTick(effect(), target, mTick);
     if (jump > mTick) restart(jump);
-    recordTicks(commands, target - mTick);
-    mSinceTick = tickFractionAt(seconds, tickRate);
+    recordTicks(commands, std::min(target - mTick, maxTicks));
+    const std::uint64_t behind = target - mTick;
+    mSinceTick = behind > 0 ? 0 : tickFractionAt(seconds, tickRate);
+    return behind;
 }
 
 void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
@@ -47,11 +66,14 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     if (mMustClear)
         for (const auto& population : mPopulations) population->recordClear(commands, mTick);
     mMustClear = false;
+    if (mMustTurn)
+        for (const auto& population : mPopulations) population->recordAxes(commands, mSpaces);
+    mMustTurn = false;
     for (const std::uint64_t end = mTick + ticks; mTick < end;) {
         // Children follow their root tick by tick; only that knows how many fit.
         std::uint64_t most = end - mTick;
         for (const auto& population : mPopulations) {
-            const TickPart& part = population->schedulePart(mTick, most);
+            const TickPart& part = population->schedulePart(mTick, most, mSpaces);
             if (population == mPopulations.front()) most = part.ticks.size();
             population->recordUpload(commands, part);
         }
@@ -69,35 +91,6 @@ void GpuSimulation::recordTicks(gpu::Commands& commands, std::uint64_t ticks) {
     commands.endLabel();
 }
 
-void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& appearance) {
-    const GpuPopulation& population = *mPopulations[appearance.population];
-    if (population.slotCount() == 0) return;
-    const CompiledEffect& compiled = population.effect();
-    const dmat4& m = appearance.worldFromEffect;
-    shader::AppearancePush push{};
-    push.axisX = vec3(dvec3(m[0]));
-    push.axisY = vec3(dvec3(m[1]));
-    push.axisZ = vec3(dvec3(m[2]));
-    const dvec3 origin = dvec3(m[3]) - appearance.cameraPosition;
-    push.origin = vec3(origin);
-    push.originLo = vec3(origin - dvec3(push.origin));
-    push.radiusScale = static_cast<float>(lengthScale(m));
-    push.firstSphere = appearance.firstSphere;
-    push.lastTick = static_cast<std::uint32_t>(mTick - 1);
-    push.medium = appearance.medium;
-    push.firstId = appearance.firstId;
-    push.profile = static_cast<std::uint32_t>(compiled.profile);
-    push.isShadowedWhole = compiled.shadowing == scene::Shadowing::Particle;
-    push.instance = appearance.instance;
-    push.firstSlot = appearance.instance * compiled.capacity;
-    push.sinceTick = static_cast<float>(mSinceTick);
-    push.sinceTickSeconds = static_cast<float>(mSinceTick / compiled.tickRate);
-
-    commands.beginLabel("particles.appearance");
-    population.recordAppearance(commands, *appearance.spheres, push);
-    commands.endLabel();
-}
-
 std::vector<CompiledEffect> GpuSimulation::effects() const {
     std::vector<CompiledEffect> effects;
     for (const auto& population : mPopulations) effects.push_back(population->effect());
@@ -108,6 +101,10 @@ std::uint64_t GpuSimulation::bytes() const {
     std::uint64_t sum = 0;
     for (const auto& population : mPopulations) sum += population->bytes();
     return sum;
+}
+
+Counters GpuSimulation::readCounters(gpu::Submitter& submitter, std::uint32_t population) const {
+    return mMustClear ? Counters{} : mPopulations[population]->readCounters(submitter);
 }
 
 SimulationState GpuSimulation::readState(gpu::Submitter& submitter, std::uint32_t instance) const {

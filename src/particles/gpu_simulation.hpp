@@ -29,7 +29,19 @@ class GpuSimulation {
 
     /// To the last tick that is over at `seconds`; starts anew if that lies in the past. Leaves out
     /// the ticks before jumpTick(); then the counters take it that nothing was rejected in them.
-    void recordAdvanceTo(gpu::Commands& commands, double seconds);
+    /// Stops after `maxTicks`, for frames that must end in time, and returns the number of ticks
+    /// still to go, for the next call: no time is lost.
+    std::uint64_t recordAdvanceTo(gpu::Commands& commands, double seconds,
+                                  std::uint64_t maxTicks = ~std::uint64_t{0});
+
+    /// Where the particles of an instance are now; `worldFromEffect`: where the instance is, for
+    /// local space.
+    ParticleFrame frame(std::uint32_t instance, const dmat4& worldFromEffect) const;
+    /// In world space: a host moves an instance, straight while it goes on to `seconds`. In local
+    /// space, or where that is its last transform, nothing happens.
+    void moveTo(std::uint32_t instance, const dmat4& worldFromEffect, double seconds);
+    /// In world space: the world counts from another point now; nothing moves.
+    void rebase(const dvec3& newOrigin);
 
     std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
     std::uint32_t instanceCount() const { return mPopulations[0]->instanceCount(); }
@@ -39,21 +51,22 @@ class GpuSimulation {
         return mPopulations[population]->slotCount();
     }
 
-    /// Where and how the particles of a population of an instance appear.
+    /// Where and how a population of an instance appears.
     struct Appearance {
-        dmat4 worldFromEffect{1};
-        dvec3 cameraPosition{0};  ///< world; the spheres' centres are relative to it
+        ParticleFrame frame;            ///< see frame()
         std::uint32_t medium = 0;
-        std::uint32_t firstId = 0;             ///< sphere id = firstId + birth index
-        const gpu::Buffer* spheres = nullptr;  ///< of shader::SphereData
-        std::uint32_t firstSphere = 0;         ///< fills [firstSphere, firstSphere + slotCount())
-        std::uint32_t population = 0;
-        std::uint32_t instance = 0;  ///< index among those of the constructor
+        std::uint32_t firstId = 0;      ///< sphere id = firstId + birth index
+        std::uint32_t firstSphere = 0;  ///< fills [firstSphere, firstSphere + slotCount())
     };
 
-    /// Writes all slots, at the time of the last recordAdvanceTo() or at the end of the last tick;
-    /// those without a particle get radius 0. Records nothing if there are none.
-    void recordAppearance(gpu::Commands& commands, const Appearance& appearance);
+    /// Writes all slots of a population of all instances (`appearances`: in the order of the
+    /// constructor's) in one dispatch, at the time of the last recordAdvanceTo() or at the end of
+    /// the last tick; those without a particle, or thinned out, get radius 0. Centres are relative
+    /// to the viewer.
+    /// `spheres`: of shader::SphereData. Records nothing if there are none.
+    void recordAppearance(gpu::Commands& commands, std::uint32_t population,
+                          const Viewer& viewer, std::span<const Appearance> appearances,
+                          const gpu::Buffer& spheres);
 
     std::uint64_t tick() const { return mTick; }  ///< ticks recorded
     double sinceTick() const { return mSinceTick; }  ///< ticks beyond them, [0, 1), for appearance
@@ -68,6 +81,9 @@ class GpuSimulation {
     /// Submits and waits; all recorded ticks must have been submitted.
     SimulationState readState(gpu::Submitter& submitter, std::uint32_t instance = 0) const;
 
+    /// Of all instances of a population together. Submits and waits, as readState().
+    Counters readCounters(gpu::Submitter& submitter, std::uint32_t population) const;
+
     /// Goes on from a state. All instances must be given states of one tick. Submits and waits.
     void writeState(gpu::Submitter& submitter, std::span<const SimulationState> states);
 
@@ -78,6 +94,9 @@ class GpuSimulation {
     std::uint64_t mTick = 0;
     double mSinceTick = 0;
     bool mMustClear = true;
+    bool mMustTurn = false;              // the axes of instances are new
+    std::vector<InstanceSpace> mSpaces;  // of the instances, in world space
+    std::vector<shader::AppearancePlace> mAppearancePlaces;  // keeps its memory
 };
 
 }  // namespace brume::particles

@@ -74,6 +74,18 @@ std::uint64_t fingerprintOf(const std::vector<CompiledEffect>& populations) {
     return hash;
 }
 
+std::uint64_t fingerprintOf(const std::vector<CompiledEffect>& populations,
+                            const scene::Placement& placement) {
+    std::uint64_t hash = fingerprintOf(populations);
+    if (!populations[0].isWorldSpace()) return hash;
+    hash = hashBytes(hash, &placement.worldFromObject, sizeof placement.worldFromObject);
+    for (const auto& [seconds, offset] : placement.path) {
+        hash = hashBytes(hash, &seconds, sizeof seconds);
+        hash = hashBytes(hash, &offset, sizeof offset);
+    }
+    return hash;
+}
+
 void writeCheckpoint(const std::filesystem::path& file, const CheckpointKey& key,
                      const SimulationState& state) {
     const std::filesystem::path temporary = file.string() + ".part";

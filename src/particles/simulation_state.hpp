@@ -27,6 +27,10 @@ struct CheckpointKey {
 /// A hash of all that decides how an effect moves (not of how it looks).
 std::uint64_t fingerprintOf(const std::vector<CompiledEffect>& populations);
 
+/// The same with the way of the instance, which decides in world space.
+std::uint64_t fingerprintOf(const std::vector<CompiledEffect>& populations,
+                            const scene::Placement& placement);
+
 /// Writes a file whole or not at all: 40 bytes per particle. Throws a failure Error.
 void writeCheckpoint(const std::filesystem::path& file, const CheckpointKey& key,
                      const SimulationState& state);

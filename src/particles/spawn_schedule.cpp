@@ -185,16 +185,7 @@ void SpawnSchedule::addRate(const Emitter& emitter, std::uint64_t tick,
 }
 
 dvec3 SpawnSchedule::pathAt(const Emitter& emitter, std::uint64_t tick) const {
-    const auto& path = emitter.path;
-    if (path.empty()) return dvec3(0);
-    const double time = static_cast<double>(tick) / mTickRate;
-    const auto next =
-        std::upper_bound(path.begin(), path.end(), time,
-                         [](double value, const auto& key) { return value < key.first; });
-    if (next == path.begin()) return path.front().second;
-    if (next == path.end()) return path.back().second;
-    const auto& [start, from] = *std::prev(next);
-    return from + (next->second - from) * ((time - start) / (next->first - start));
+    return scene::offsetAt(emitter.path, static_cast<double>(tick) / mTickRate);
 }
 
 AliveBound::AliveBound(std::uint32_t capacity, double longestLifetimeTicks)

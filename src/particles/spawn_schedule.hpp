@@ -57,7 +57,7 @@ class SpawnSchedule {
         std::vector<Burst> bursts;     // by tick
         std::vector<std::uint64_t> burstSums;  // births of the bursts before each, and of all
         std::vector<Series> series;
-        std::vector<std::pair<double, dvec3>> path;  // seconds
+        scene::Path path;
     };
 
     void addBursts(const Emitter& emitter, std::uint64_t tick,

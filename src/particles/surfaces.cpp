@@ -172,13 +172,13 @@ struct Point {
     std::uint32_t birthIndex = 0;
 };
 
-std::vector<Point> findPoints(const SurfaceParticles& p, const dmat4& worldFromEffect) {
+std::vector<Point> findPoints(const SurfaceParticles& p, const ParticleFrame& frame) {
     std::vector<Point> points;
     const std::vector<Particle>& particles = p.state.populations[p.population];
     const std::vector<std::uint32_t>& strands = p.state.strands[p.population];
     const auto lastTick = static_cast<std::uint32_t>(p.state.tick - 1);
     const auto since = static_cast<float>(p.sinceTick);
-    const double scale = lengthScale(worldFromEffect);
+    const double scale = frame.radiusScale;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Particle& particle = particles[i];
         if (!shader::isShownAt(particle.life, lastTick, since)) continue;
@@ -188,7 +188,7 @@ std::vector<Point> findPoints(const SurfaceParticles& p, const dmat4& worldFromE
                                  .radius;
         const dvec3 place = dvec3(particle.position) +
                             dvec3(particle.velocity) * (p.sinceTick / p.compiled.tickRate);
-        points.push_back({transformPoint(worldFromEffect, place), radius * scale, age,
+        points.push_back({transformPoint(frame.worldFromParticles, place), radius * scale, age,
                           age * particle.life.lifetimeTicks / p.compiled.tickRate,
                           strands.empty() ? 0 : strands[i], particle.birthIndex});
     }
@@ -196,7 +196,7 @@ std::vector<Point> findPoints(const SurfaceParticles& p, const dmat4& worldFromE
 }
 
 /// Where each ribbon of a trail ends: at its parent, with the look of a newborn.
-void addParents(const SurfaceParticles& p, const dmat4& worldFromEffect,
+void addParents(const SurfaceParticles& p, const ParticleFrame& frame,
                 std::vector<Point>& points) {
     if (!p.compiled.isChild() || points.empty()) return;
     const auto lastTick = static_cast<std::uint32_t>(p.state.tick - 1);
@@ -206,8 +206,8 @@ void addParents(const SurfaceParticles& p, const dmat4& worldFromEffect,
         if (!shader::isShownAt(parent.life, lastTick, since)) continue;
         const dvec3 place = dvec3(parent.position) +
                             dvec3(parent.velocity) * (p.sinceTick / p.compiled.tickRate);
-        points.push_back({transformPoint(worldFromEffect, place),
-                          radius * lengthScale(worldFromEffect), 0, 0, parent.birthIndex, 0});
+        points.push_back({transformPoint(frame.worldFromParticles, place),
+                          radius * frame.radiusScale, 0, 0, parent.birthIndex, 0});
     }
 }
 
@@ -312,13 +312,13 @@ scene::Material makeSurfaceMaterial(const scene::Material& base, const scene::Ef
                                                               : makeBillboardMaterial(base, effect);
 }
 
-scene::Mesh makeSurfaceMesh(const SurfaceParticles& particles, const dmat4& worldFromEffect,
+scene::Mesh makeSurfaceMesh(const SurfaceParticles& particles, const ParticleFrame& frame,
                             const scene::CameraFrame& camera, std::uint32_t material) {
     MeshBuilder builder(material);
     if (particles.state.tick == 0) return builder.take();
-    std::vector<Point> points = findPoints(particles, worldFromEffect);
+    std::vector<Point> points = findPoints(particles, frame);
     if (particles.effect.surface->type == scene::SurfaceType::Ribbon) {
-        addParents(particles, worldFromEffect, points);
+        addParents(particles, frame, points);
         addRibbons(std::move(points), camera, builder);
         return builder.take();
     }

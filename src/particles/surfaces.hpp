@@ -28,7 +28,7 @@ struct SurfaceParticles {
 
 /// The surface facing the camera, with uvs for makeSurfaceMaterial(); without vertices if there is
 /// nothing to see. A ribbon of a trail ends at the parent while that lives.
-scene::Mesh makeSurfaceMesh(const SurfaceParticles& particles, const dmat4& worldFromEffect,
+scene::Mesh makeSurfaceMesh(const SurfaceParticles& particles, const ParticleFrame& frame,
                             const scene::CameraFrame& camera, std::uint32_t material);
 
 }  // namespace brume::particles

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace brume::render {
 
@@ -42,6 +43,10 @@ std::optional<int> findCheckpoint(const std::filesystem::path& folder, int frame
     return std::nullopt;
 }
 
+particles::Viewer viewerOf(const scene::CameraFrame& camera) {
+    return {camera.position, camera.type == scene::CameraType::Perspective};
+}
+
 }  // namespace
 
 std::uint32_t firstParticleId(std::size_t effect) {
@@ -61,7 +66,8 @@ EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepa
         }
         std::vector<particles::EffectInstance> instances;
         for (const std::size_t i : roots)
-            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i)});
+            instances.push_back({prepared.scene.effects[i].seed, static_cast<std::uint32_t>(i),
+                                 prepared.scene.effects[i].placement()});
         mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
             device, prepared.scene.effects[roots[0]].effect, instances));
     }
@@ -93,7 +99,9 @@ std::uint64_t EffectParticles::ticksBehind() const {
 
 void EffectParticles::groupInstances() {
     const std::vector<scene::EffectInstance>& effects = mPrepared->scene.effects;
-    std::map<std::pair<std::filesystem::path, double>, std::size_t> groups;
+    // A budget may have left instances of one effect different capacities.
+    std::map<std::tuple<std::filesystem::path, double, std::vector<std::uint32_t>>, std::size_t>
+        groups;
     Place place;
     for (std::size_t i = 0; i < effects.size(); ++i) {
         if (effects[i].isSubEmitter) {
@@ -101,7 +109,10 @@ void EffectParticles::groupInstances() {
         } else {
             // Effects made in code have no file to know them by: each stands alone.
             const bool isKnown = !effects[i].file.empty();
-            const std::pair key(effects[i].file, effects[i].simulatedSeconds());
+            std::vector<std::uint32_t> capacities;
+            for (const scene::Effect* effect : particles::listPopulations(effects[i].effect))
+                capacities.push_back(effect->capacity);
+            const std::tuple key(effects[i].file, effects[i].simulatedSeconds(), capacities);
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -118,12 +129,9 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
     for (std::size_t i = 0; i < mSimulations.size(); ++i) {
         particles::GpuSimulation& simulation = *mSimulations[i];
         const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
-        const double tickRate = simulation.effect().tickRate;
-        const std::uint64_t target = particles::ticksAt(time, tickRate);
-        if (target > simulation.tick() && target - simulation.tick() > maxTicks)
-            simulation.recordTicks(commands, maxTicks);
-        else
-            simulation.recordAdvanceTo(commands, time);
+        for (std::uint32_t k = 0; k < simulation.instanceCount(); ++k)
+            simulation.moveTo(k, mPrepared->scene.effects[mRoots[i][k]].worldFromEffect, time);
+        simulation.recordAdvanceTo(commands, time, maxTicks);
     }
 }
 
@@ -137,25 +145,69 @@ void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
         .readsWrites(spheres, Access::ComputeWrite)
         .record([this, &scene, spheres](gpu::Commands& commands,
                                         const frame::PassResources& resources) {
-            for (std::size_t i = 0; i < mPlaces.size(); ++i) {
-                const scene::EffectInstance& effect = mPrepared->scene.effects[i];
-                if (effect.effect.surface) continue;
-                mSimulations[mPlaces[i].simulation]->recordAppearance(
-                    commands, {.worldFromEffect = effect.worldFromEffect,
-                               .cameraPosition = scene.camera().position,
-                               .medium = effect.medium,
-                               .firstId = firstParticleId(i),
-                               .spheres = &resources.buffer(spheres),
-                               .firstSphere = scene.firstEffectSphere(i),
-                               .population = mPlaces[i].population,
-                               .instance = mPlaces[i].instance});
-            }
+            recordAppearances(commands, scene, resources.buffer(spheres));
         });
+}
+
+void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene& scene,
+                                        const gpu::Buffer& spheres) const {
+    std::vector<particles::GpuSimulation::Appearance>& appearances = mAppearances;
+    for (std::size_t s = 0; s < mSimulations.size(); ++s)
+        for (std::uint32_t p = 0; p < mSimulations[s]->populationCount(); ++p) {
+            appearances.clear();
+            for (const std::size_t root : mRoots[s]) {
+                const std::size_t i = root + p;
+                const scene::EffectInstance& effect = mPrepared->scene.effects[i];
+                if (effect.effect.surface) break;  // as all instances of this population
+                const auto instance = static_cast<std::uint32_t>(appearances.size());
+                appearances.push_back({.frame = mSimulations[s]->frame(instance, effect.placed()),
+                                       .medium = effect.medium,
+                                       .firstId = firstParticleId(i),
+                                       .firstSphere = scene.firstEffectSphere(i)});
+            }
+            if (!appearances.empty())
+                mSimulations[s]->recordAppearance(commands, p, viewerOf(scene.camera()),
+                                                  appearances, spheres);
+        }
+}
+
+std::vector<Box3> EffectParticles::readBounds(gpu::Submitter& submitter, const GpuScene& scene) {
+    std::vector<particles::SphereRange> ranges;
+    for (std::size_t i = 0; i < mPlaces.size(); ++i) {
+        const Place& place = mPlaces[i];
+        const bool isShown = !mPrepared->scene.effects[i].effect.surface;
+        ranges.push_back({scene.firstEffectSphere(i),
+                          isShown ? mSimulations[place.simulation]->slotCount(place.population) : 0});
+    }
+    if (ranges.empty()) return {};
+    if (!mBounds) mBounds.emplace(scene.device(), ranges.size());
+    submitter.submitAndWait("bound particles", [&](gpu::Commands& commands) {
+        recordAppearances(commands, scene, scene.spheres());
+        mBounds->record(commands, scene.spheres(), ranges);
+    });
+    return particles::GpuBounds::makeBoxes(
+        submitter.readBuffer<std::uint32_t>(mBounds->words(), 6 * ranges.size()),
+        scene.camera().position);
+}
+
+particles::Counters EffectParticles::readCounters(gpu::Submitter& submitter) const {
+    particles::Counters sum{};
+    for (const auto& simulation : mSimulations)
+        for (std::uint32_t p = 0; p < simulation->populationCount(); ++p) {
+            const particles::Counters counters = simulation->readCounters(submitter, p);
+            sum.alive += counters.alive;
+            sum.born += counters.born;
+            sum.died += counters.died;
+            sum.rejected += counters.rejected;
+            sum.killed += counters.killed;
+        }
+    return sum;
 }
 
 particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation,
                                                           std::size_t entry) const {
-    return {particles::fingerprintOf(mSimulations[simulation]->effects()),
+    return {particles::fingerprintOf(mSimulations[simulation]->effects(),
+                                     mPrepared->scene.effects[entry].placement()),
             mPrepared->scene.effects[entry].seed, static_cast<std::uint32_t>(entry)};
 }
 
@@ -194,7 +246,7 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
         const Place& place = mPlaces[i];
         const particles::GpuSimulation& simulation = *mSimulations[place.simulation];
         const auto state = simulation.readState(submitter, place.instance);
-        const auto root = static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+        const std::uint32_t root = rootOf(place);
         scene::Mesh mesh = particles::makeSurfaceMesh(
             {.effect = effect.effect,
              .compiled = simulation.effect(place.population),
@@ -202,7 +254,7 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
              .population = place.population,
              .random = particles::instanceParameters(effect.seed, root, place.population).random,
              .sinceTick = simulation.sinceTick()},
-            effect.worldFromEffect,
+            simulation.frame(place.instance, effect.placed()),
             scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height),
             effect.material);
         if (!mesh.indices.empty()) surfaces.push_back(std::move(mesh));
@@ -212,6 +264,9 @@ std::vector<scene::Mesh> EffectParticles::readSurfaces(gpu::Submitter& submitter
 
 std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& submitter) const {
     std::vector<scene::MediumSphere> spheres;
+    const scene::Scene& scene = mPrepared->scene;
+    const particles::Viewer viewer = viewerOf(
+        scene::makeCameraFrame(scene.camera, scene.image.width, scene.image.height));
     for (std::size_t i = 0; i < mPlaces.size(); ++i) {
         const scene::EffectInstance& effect = mPrepared->scene.effects[i];
         if (effect.effect.surface) continue;
@@ -220,16 +275,23 @@ std::vector<scene::MediumSphere> EffectParticles::readSpheres(gpu::Submitter& su
         const auto snapshot = simulation.readState(submitter, place.instance);
         const auto shown = particles::makeSpheres(
             simulation.effect(place.population), snapshot.populations[place.population],
-            snapshot.tick, simulation.sinceTick(), effect.worldFromEffect, effect.medium,
-            firstParticleId(i));
+            snapshot.tick, simulation.sinceTick(),
+            simulation.frame(place.instance, effect.placed()), effect.medium, firstParticleId(i),
+            particles::instanceParameters(effect.seed, rootOf(place), place.population).random,
+            viewer);
         spheres.insert(spheres.end(), shown.begin(), shown.end());
     }
     return spheres;
 }
 
+std::uint32_t EffectParticles::rootOf(const Place& place) const {
+    return static_cast<std::uint32_t>(mRoots[place.simulation][place.instance]);
+}
+
 std::uint64_t EffectParticles::bytes() const {
     std::uint64_t sum = 0;
     for (const auto& simulation : mSimulations) sum += simulation->bytes();
+    if (mBounds) sum += mBounds->bytes();
     return sum;
 }
 

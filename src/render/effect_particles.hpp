@@ -4,11 +4,13 @@
 
 #include <frame/frame_builder.hpp>
 #include <gpu/submitter.hpp>
+#include <particles/gpu_bounds.hpp>
 #include <particles/gpu_simulation.hpp>
 #include <render/gpu_scene.hpp>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace brume::render {
@@ -38,6 +40,14 @@ class EffectParticles {
     /// beginning where there are none. Throws an input Error for those of other effects or seeds.
     void readCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder, int frame);
 
+    /// Boxes around the particles of each entry of the scene's effects, as spheres of radii that
+    /// they have now; empty for ribbons and billboards. Found on the device: `scene` is filled as by
+    /// declare(). Submits and waits.
+    std::vector<Box3> readBounds(gpu::Submitter& submitter, const GpuScene& scene);
+
+    /// What births have come to, of all instances and sub-emitters. Submits and waits.
+    particles::Counters readCounters(gpu::Submitter& submitter) const;
+
     std::vector<scene::MediumSphere> readSpheres(gpu::Submitter& submitter) const;
 
     /// Ribbons and billboards as they are now, facing the scene's camera, in the order of its
@@ -53,6 +63,9 @@ class EffectParticles {
         std::uint32_t population = 0;
     };
     void groupInstances();
+    std::uint32_t rootOf(const Place& place) const;  // the entry of its root
+    void recordAppearances(gpu::Commands& commands, const GpuScene& scene,
+                           const gpu::Buffer& spheres) const;
     particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
     std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
     std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
@@ -62,6 +75,8 @@ class EffectParticles {
     std::vector<std::vector<std::size_t>> mRoots;  // by simulation: the entries of its instances
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
     std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
+    mutable std::vector<particles::GpuSimulation::Appearance> mAppearances;  // keeps its memory
+    std::optional<particles::GpuBounds> mBounds;  // once it is asked for
 };
 
 /// Id of the first particle of an effect; ids only order what begins at equal distances.

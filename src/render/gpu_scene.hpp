@@ -62,6 +62,7 @@ class GpuScene {
     /// Everything but the frame's own references.
     oit::Inputs makeInputs() const;
     const gpu::Buffer& spheres() const { return mSpheres; }
+    gpu::Device& device() const { return *mDevice; }
     std::uint32_t sphereCount() const { return mSphereCount; }
     std::uint32_t firstEffectSphere(std::size_t effect) const { return mFirstEffectSphere[effect]; }
 

@@ -59,12 +59,14 @@ struct Renderer::Impl {
         submitter.submitAndWait("upload scene",
                                 [&](gpu::Commands& commands) { composer.recordContent(commands); });
         simulate();
+        // Before the spheres lie in another order.
+        const Box3 bounds = composer.hasShadows() ? translucentBounds() : Box3();
         if (composer.shuffleSeed != 0) {
             measure([](frame::FrameBuilder&, const oit::Inputs&) {});
             composer.scene.shuffleSpheres(submitter, composer.shuffleSeed);
             composer.areSpheresFinal = true;
         }
-        if (composer.hasShadows()) prepareShadows();
+        if (composer.hasShadows()) prepareShadows(bounds);
         composer.addMethod();
         const VkExtent2D extent = composer.scene.extent();
         const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height;
@@ -110,7 +112,10 @@ struct Renderer::Impl {
     }
 
     Box3 translucentBounds() {
-        return findTranslucentBounds(prepared, composer.effects.readSpheres(submitter));
+        Box3 bounds = findTranslucentBounds(prepared);
+        for (const Box3& box : composer.effects.readBounds(submitter, composer.scene))
+            bounds.extend(box);
+        return bounds;
     }
 
     void binCasters() {
@@ -122,8 +127,8 @@ struct Renderer::Impl {
         });
     }
 
-    void prepareShadows() {
-        composer.addShadows(translucentBounds());
+    void prepareShadows(const Box3& bounds) {
+        composer.addShadows(bounds);
         submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
             composer.casters->recordContent(commands);
         });
@@ -188,6 +193,19 @@ struct Renderer::Impl {
         return sums;
     }
 
+    /// Adds what births have come to; births without room are warned of once.
+    void countParticles(std::map<std::string, std::uint64_t>& counters) {
+        if (prepared.scene.effects.empty()) return;
+        const particles::Counters counted = composer.effects.readCounters(submitter);
+        counters["particlesAlive"] = counted.alive;
+        counters["particlesRejected"] = counted.rejected;
+        if (counted.rejected > 0 && !isOverflowKnown)
+            log.warning(fmt::format("simulating: {} of {} births found no room; 'capacity' of the "
+                                    "effects or a budget is used up",
+                                    counted.rejected, counted.born + counted.rejected));
+        isOverflowKnown |= counted.rejected > 0;
+    }
+
     std::map<std::string, std::uint64_t> bytes() const {
         std::map<std::string, std::uint64_t> kinds = composer.bytes();
         kinds["targets"] = pool.bytes();
@@ -208,6 +226,7 @@ struct Renderer::Impl {
     const PreparedScene& prepared;
     Composer composer;
     bool areMapsBuilt = false;  // for the particles as they are
+    bool isOverflowKnown = false;
     gpu::Buffer image, triangles, trianglesRead;
 };
 
@@ -241,6 +260,7 @@ Result Renderer::renderFrame() {
             result.timeMs += pass.timeMs;
     result.bytes = mImpl->bytes();
     result.counters = mImpl->composer.method->counters();
+    mImpl->countParticles(result.counters);
     result.errorBound = mImpl->composer.method->errorBound();
     if (result.counters["exhausted"] > 0)
         mImpl->log.warning(

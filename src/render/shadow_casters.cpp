@@ -76,11 +76,9 @@ shader::ShadowTriangle makeTriangle(const scene::Mesh& mesh, std::size_t first,
 
 }  // namespace
 
-Box3 findTranslucentBounds(const PreparedScene& prepared,
-                           std::span<const scene::MediumSphere> particles) {
+Box3 findTranslucentBounds(const PreparedScene& prepared) {
     Box3 bounds;
     for (const scene::MediumSphere& sphere : prepared.spheres) extend(bounds, sphere);
-    for (const scene::MediumSphere& sphere : particles) extend(bounds, sphere);
     for (const volumes::VolumeGrid& grid : prepared.volumes)
         if (!grid.isEmpty()) bounds.extend(grid.worldBounds());
     for (const scene::Mesh& mesh : prepared.scene.meshes) {

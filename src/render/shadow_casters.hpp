@@ -11,9 +11,8 @@
 
 namespace brume::render {
 
-/// World box of the media and of the thin and solid surfaces.
-Box3 findTranslucentBounds(const PreparedScene& scene,
-                           std::span<const scene::MediumSphere> particles);
+/// World box of the media and of the thin and solid surfaces, but for the particles of effects.
+Box3 findTranslucentBounds(const PreparedScene& scene);
 
 /// The triangles and materials of a scene for shadow maps; media are those of the GpuScene.
 class ShadowCasters {

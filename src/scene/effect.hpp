@@ -3,6 +3,7 @@
 #pragma once
 
 #include <core/math.hpp>
+#include <scene/placement.hpp>
 
 #include <compare>
 #include <cstdint>
@@ -84,8 +85,7 @@ struct Emitter {
     /// `position`.
     std::optional<FieldPlacement> volume;
     std::optional<FieldPlacement> velocityField;  ///< added to the velocity at birth
-    /// Offset of the emitter at times that rise: linear between them, constant outside. Empty: 0.
-    std::vector<std::pair<double, dvec3>> path;
+    Path path;  ///< of the emitter, effect space
     double inherit = 0;        ///< share of the emitter's or parent's velocity that births take over
     dvec2 speed{0};            ///< m/s, [low, high]
     EmitterVelocity velocity = EmitterVelocity::Direction;
@@ -140,6 +140,12 @@ struct Surface {
     dvec2 spin{0};                     ///< [low, high], radians per second
 };
 
+/// Fewer, larger particles far away.
+struct Thinning {
+    double distance = 0;  ///< m from the camera, where it begins; 0: never
+    double least = 0.01;  ///< share of the particles that is always kept, (0, 1]
+};
+
 /// Where a soft sphere that scatters asks for the shadows on it.
 enum class Shadowing {
     Particle,  ///< once, at its front towards the light: it does not shadow itself
@@ -148,7 +154,14 @@ enum class Shadowing {
 
 struct Effect {
     std::uint32_t capacity = 10000;
+    std::uint32_t budget = 0;  ///< particles of all its instances in a scene together; 0: no limit
+    bool isCut = false;        ///< a budget has lowered the capacity, to 0 maybe
+    Thinning thinning;
     double tickRate = 120;  ///< simulation steps per second
+    /// Particles stay behind when the instance moves, and modules act along the world's axes, from
+    /// where the instance began; else all of it moves with the instance. Of a sub-emitter: as its
+    /// parent, whatever it says.
+    bool isWorldSpace = false;
     std::string medium;     ///< name in the scene that uses the effect; not used with a surface
     std::optional<Surface> surface;
     std::vector<Emitter> emitters;

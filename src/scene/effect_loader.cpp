@@ -31,7 +31,8 @@ std::filesystem::path existingFile(const JsonNode& node, const EffectPlace& plac
     const auto path = (place.file.parent_path() / node.text()).lexically_normal();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored))
-        throw node.error("no such file: " + quoteForMessage(path.string(), 400));
+        throw node.error("no such file: " + quoteForMessage(path.string(), 400) +
+                             ", an existing one is needed");
     return path;
 }
 
@@ -117,17 +118,6 @@ Burst readBurst(const JsonNode& node) {
     return burst;
 }
 
-std::vector<std::pair<double, dvec3>> readPath(const std::vector<JsonNode>& items) {
-    std::vector<std::pair<double, dvec3>> path;
-    for (const JsonNode& item : items) {
-        const std::vector<JsonNode> pair = item.items();
-        if (!path.empty() && !(pair[0].number() > path.back().first))
-            throw pair[0].error("is not above the time before it, times must rise");
-        path.emplace_back(pair[0].number(), pair[1].vec3());
-    }
-    return path;
-}
-
 Emitter readEmitter(const JsonNode& node, const EffectPlace& place) {
     Emitter emitter;
     node.read("rate", emitter.rate);
@@ -135,7 +125,7 @@ Emitter readEmitter(const JsonNode& node, const EffectPlace& place) {
     node.read("delay", emitter.delay);
     node.read("duration", emitter.duration);
     if (node.has("shape")) readShape(node["shape"], place, emitter);
-    emitter.path = readPath(node.items("path"));
+    emitter.path = readPath(node);
     node.read("inherit", emitter.inherit);
     if (node.has("speed")) emitter.speed = node["speed"].range();
     if (node.has("direction")) emitter.direction = node["direction"].unitVec3();
@@ -243,6 +233,7 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
     Effect effect;
     root.read("capacity", effect.capacity);
     root.read("tickRate", effect.tickRate);
+    effect.isWorldSpace = root.has("space") && root["space"].text() == "world";
     root.read("medium", effect.medium);
     if (root.has("surface")) effect.surface = readSurface(root["surface"]);
     if (effect.medium.empty() && !effect.surface)
@@ -263,6 +254,13 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
     if (root.has("bySpeed")) {
         readCurve(root["bySpeed"], "radius", "speed", effect.radiusBySpeed);
         readCurve(root["bySpeed"], "density", "speed", effect.densityBySpeed);
+    }
+    root.read("budget", effect.budget);
+    if (root.has("thinning")) {
+        if (effect.surface)
+            throw root["thinning"].error("is given with 'surface', with 'medium' allowed");
+        effect.thinning.distance = root["thinning"]["distance"].number();
+        root["thinning"].read("least", effect.thinning.least);
     }
     effect.smoothProfile = root.has("profile") && root["profile"].text() == "smooth";
     if (root.has("shadowing") && root["shadowing"].text() == "sample")

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +34,15 @@ class TokenCursor {
         const TextPlace place{mLine, static_cast<std::uint32_t>(mOffset - mLineStart + 1)};
         skipToken();
         return place;
+    }
+
+    /// The text of the next token, without going there.
+    std::string_view show() const {
+        TokenCursor ahead = *this;
+        ahead.skipGap();
+        const std::size_t begin = std::min(ahead.mOffset, mText.size());
+        ahead.skipToken();
+        return mText.substr(begin, ahead.mOffset - begin);
     }
 
   private:
@@ -123,10 +133,26 @@ class TreeBuilder {
     }
 
     bool parse_error(std::size_t position, const std::string&, const json::exception& exception) {
+        const std::string_view token = mCursor.show();
+        if (exception.id == kNumberOverflow || isMeantToBeNotFinite(token))
+            throw error(placeOf(position),
+                        fmt::format("{}{} is no number, finite ones up to 1e30 are allowed",
+                                    mKey.empty() ? "" : "key \"" + quoteForMessage(mKey) + "\": ",
+                                    quoteForMessage(std::string(token))));
         throw error(placeOf(position), withoutPrefix(exception.what()));
     }
 
   private:
+    static constexpr int kNumberOverflow = 406;  // of the parser
+
+    /// What other programs write for numbers that JSON does not have.
+    static bool isMeantToBeNotFinite(std::string_view token) {
+        if (token.substr(0, 1) == "-" || token.substr(0, 1) == "+") token.remove_prefix(1);
+        std::string lower(token);
+        for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return lower == "nan" || lower == "inf" || lower == "infinity";
+    }
+
     struct Level {
         json* value;
         PlaceTree* places;

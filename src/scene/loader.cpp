@@ -79,6 +79,7 @@ class SceneReader {
         for (const JsonNode& node : mRoot.items("volumes")) readVolume(node);
         for (const JsonNode& node : mRoot.items("spheres")) readSphere(node);
         for (const JsonNode& node : mRoot.items("effects")) readEffectInstance(node);
+        mRoot.read("particleBudget", mScene.particleBudget);
         if (mRoot.has("render")) mScene.render = readRenderSettings(mRoot["render"]);
         return std::move(mScene);
     }
@@ -213,6 +214,7 @@ class SceneReader {
         instance.file = existingFile(node["file"]);
         instance.effect = loadEffect(instance.file, mLog);
         instance.worldFromEffect = readTransform(node);
+        instance.path = readPath(node);
         node.read("seed", instance.seed);
         node.read("time", instance.time);
         node.read("start", instance.start);

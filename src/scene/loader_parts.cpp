@@ -149,6 +149,17 @@ dmat4 readTransform(const JsonNode& parent) {
     return glm::scale(matrix, scale);
 }
 
+Path readPath(const JsonNode& parent) {
+    Path path;
+    for (const JsonNode& item : parent.items("path")) {
+        const std::vector<JsonNode> pair = item.items();
+        if (!path.empty() && !(pair[0].number() > path.back().first))
+            throw pair[0].error("is not above the time before it, times must rise");
+        path.emplace_back(pair[0].number(), pair[1].vec3());
+    }
+    return path;
+}
+
 Mesh readShape(const JsonNode& node) {
     const std::string shape = node["shape"].text();
     Mesh mesh;

@@ -18,8 +18,10 @@ RenderSettings readRenderSettings(const JsonNode& node);
 /// it has none.
 dmat4 readTransform(const JsonNode& parent);
 
+/// The member "path" of a node: [seconds, [x, y, z]], ...; empty if it has none.
+Path readPath(const JsonNode& parent);
+
 /// The mesh of a member "shape", placed by its transform.
 Mesh readShape(const JsonNode& node);
-
 
 }  // namespace brume::scene

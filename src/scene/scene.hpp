@@ -161,6 +161,7 @@ struct EffectInstance {
     std::uint32_t material = 0;  ///< of an effect with a surface
     bool isPrepared = false;     ///< that material shows the effect's look over life
     dmat4 worldFromEffect{1};
+    Path path;  ///< along which it moves, in its own seconds
     std::uint64_t seed = 0;
     double time = 0;       ///< of the frame, s
     double start = 0;      ///< the effect begins at that time, s
@@ -176,6 +177,9 @@ struct EffectInstance {
         const double own = (time - start) * timeScale;
         return prewarm + (loop > 0 ? std::fmod(own, loop) : own);
     }
+    Placement placement() const { return {worldFromEffect, path}; }
+    /// Where it is at the time of the frame.
+    dmat4 placed() const { return placement().at(simulatedSeconds()); }
 };
 
 struct RenderSettings {
@@ -195,6 +199,7 @@ struct Scene {
     std::vector<Volume> volumes;
     std::vector<Sphere> spheres;
     std::vector<EffectInstance> effects;
+    std::uint64_t particleBudget = 0;  ///< capacity of all effects together; 0: no limit
     RenderSettings render;
 };
 

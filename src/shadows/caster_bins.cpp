@@ -95,11 +95,11 @@ void CasterBins::recordCount(gpu::Commands& commands, const Set& set, VkDeviceAd
     run(commands, set.identity, push, set.count);
     // Boxes and triangles already are in the order of their identity.
     if (set.kind == shader::kCasterSphere) {
-        set.orderSort->record(commands, push.keys, push.values, set.count);
+        set.orderSort->record(commands, set.orderKeys, set.order, set.count);
         commands.computeBarrier();
     }
     run(commands, set.distance, push, set.count);
-    set.orderSort->record(commands, push.keys, push.values, set.count);
+    set.orderSort->record(commands, set.orderKeys, set.order, set.count);
     commands.computeBarrier();
     run(commands, set.count_, push, set.count);
     mPrefixSum.record(commands, push.offsets, set.count + 1, set.sums.deviceAddress());
@@ -123,7 +123,7 @@ void CasterBins::recordPairs(gpu::Commands& commands, const Set& set, VkDeviceAd
             commands.computeTransferBarrier();
         }
         run(commands, set.write, push, set.count);
-        set.pairSort->record(commands, push.keys, push.values, push.capacity);
+        set.pairSort->record(commands, set.tiles, set.casters, push.capacity);
         commands.computeBarrier();
     }
     push.count = push.capacity;

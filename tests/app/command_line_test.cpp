@@ -199,6 +199,43 @@ TEST_F(CommandLine, SimulateReference_FrameLengthDoesNotMatter) {
     EXPECT_EQ(readJson("a.json")["hash"], readJson("b.json")["hash"]);
 }
 
+TEST_F(CommandLine, SimulateBadEffects_NameLineKeyAndWhatIsAllowed) {
+    struct Fault {
+        const char *from, *to;            // in kEffect
+        std::vector<const char*> wanted;  // in the message
+    };
+    for (const Fault& fault : std::vector<Fault>{
+             {"\"gravity\"", "\"gravitty\"", {":4:16:", "'gravitty'", "known are gravity, drag"}},
+             {"\"acceleration\"", "\"acc\"", {":4:44:", "'acc'", "known are acceleration"}},
+             {"\"capacity\"", "\"capacty\"", {":1:17:", "\"capacty\"", "known are $schema, "}},
+             {"[0, -9.81, 0]", "\"down\"", {":4:53:", "'acceleration'", "an array of three allowed"}},
+             {"[0.2, 0.4]", "-2", {":3:69:", "\"emitters[0].lifetime\"", "a number above 0"}},
+             {"-9.81", "NaN", {":4:", "\"acceleration\"", "finite ones up to 1e30 are allowed"}},
+             {"-9.81", "1e999", {":4:", "\"acceleration\"", "finite ones up to 1e30 are allowed"}},
+             {"\"medium\"", "\"overLife\": { \"radius\": [] }, \"medium\"",
+              {":1:", "\"overLife.radius\"", "an array of 1 to 64"}},
+             {"\"medium\"", "\"overLife\": { \"radius\": [[0.5, 1], [0.2, 2]] }, \"medium\"",
+              {":1:", "\"overLife.radius[1][0]\"", "ages must rise"}},
+             {"\"type\": \"gravity\"",
+              "\"type\": \"buoyancy\", \"grid\": \"heat\", \"file\": \"none.vdb\"",
+              {":4:", "\"modules[0].file\"", "none.vdb", "an existing one is needed"}},
+             {"\"medium\"",
+              "\"subEmitters\": [ { \"on\": \"death\", \"effect\": \"bad.json\" } ], \"medium\"",
+              {":1:", "\"subEmitters[0].effect\"", "effects below each other must differ"}},
+             {"1000", "0", {":1:29:", "\"capacity\"", "an integer from 1 to 67108864"}},
+             {"1000", "1099511627776", {":1:29:", "\"capacity\"", "an integer from 1 to 67108864"}}}) {
+        SCOPED_TRACE(fault.to);
+        std::string text = kEffect;
+        text.replace(text.find(fault.from), std::string_view(fault.from).size(), fault.to);
+        const std::string file = write("bad.json", text);
+        const Outcome outcome = runBrume({"simulate", file, "--reference"});
+        expectUsageError(outcome);
+        EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+        for (const char* part : fault.wanted)
+            EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
+    }
+}
+
 TEST_F(CommandLine, InspectEffect_ShowsItWhateverItsName) {
     for (const char* name : {"sparks.effect.json", "sparks.json"}) {
         const Outcome outcome = runBrume({"inspect", write(name, kEffect)});

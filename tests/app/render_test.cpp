@@ -124,6 +124,44 @@ TEST_F(RenderCommandLine, Particles_AreThoseOfTheReferenceSimulation) {
     EXPECT_GT(json["counters"]["stored"], 100);
 }
 
+TEST_F(RenderCommandLine, MovingThinnedCutEffects_AreThoseOfTheReferenceSimulation) {
+    const auto withKeys = [](const std::string& keys) {
+        return "{ " + keys + std::string(kSparks).substr(1);
+    };
+    std::ofstream(mFolder / "world.json")
+        << withKeys(R"("space": "world", "thinning": { "distance": 3, "least": 0.1 },)");
+    std::ofstream(mFolder / "local.json") << kSparks;
+    std::ofstream(mFolder / "moving.json") << R"({ "version": 1,
+      "camera": { "type": "perspective", "position": [1e6, 1, 5], "target": [1e6, 0.5, 0], "up": [0, 1, 0], "verticalFov": 40 },
+      "image": { "width": 64, "height": 48 },
+      "lights": [ { "type": "ambient", "radiance": [1, 1, 1] } ],
+      "media": { "smoke": { "extinction": [4, 4, 4], "albedo": [0.9, 0.8, 0.7] } },
+      "effects": [ { "file": "world.json", "time": 1.5, "transform": { "translate": [1e6, 0, 0] },
+                     "path": [[0, [-2, 0, 0]], [1.5, [20, 0, 0]]] },
+                   { "file": "local.json", "time": 1.5, "transform": { "translate": [1e6, 0, 0] },
+                     "path": [[0, [-2, 0, 0]], [1.5, [1, 0, 0]]] } ] })";
+    std::string warnings;
+    for (const std::string method : {"reference", "linked_list"}) {
+        const bool isReference = method == "reference";
+        std::vector<std::string> arguments = {"render", path("moving.json"), "--method", method,
+                                              "--particle-budget", "600", "--json", path("r.json")};
+        for (const std::string& more :
+             isReference ? std::vector<std::string>{"-o", path("r.exr")}
+                         : std::vector<std::string>{"--against", path("r.exr")})
+            arguments.push_back(more);
+        const Outcome outcome = runBrume(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        warnings = outcome.err;
+    }
+    EXPECT_NE(warnings.find("the budget leaves room for 600 of 1000 particles"), std::string::npos)
+        << warnings;
+    const Json json = readJson("r.json");
+    EXPECT_LE(json["error"]["rmse"], 2e-5);
+    EXPECT_GT(json["counters"]["stored"], 100);
+    EXPECT_GT(json["counters"]["particlesRejected"], 10);
+    EXPECT_GT(json["counters"]["particlesAlive"], 300);
+}
+
 TEST_F(RenderCommandLine, Frames_AreNumberedAndMove) {
     render("sparks.json", {"--method", "reference", "--frames", "23:24", "-o", path("f.##.exr"),
                            "--json", path("f.json")});
@@ -181,6 +219,51 @@ TEST_F(RenderCommandLine, Bench_GivesOneRowPerSceneAndMethod) {
     }
     EXPECT_GT(rows[0]["layerPixelsPerSecond"], 0);
     EXPECT_TRUE(fs::exists(mFolder / "report/report.md"));
+}
+
+TEST_F(RenderCommandLine, RibbonsAndBillboards_AreThoseOfTheReference) {
+    std::ofstream(mFolder / "ribbon.json") << R"({ "version": 1, "capacity": 2000, "tickRate": 60,
+      "surface": { "type": "ribbon", "material": "trail" }, "emitters": [ { "lifetime": 0.5 } ],
+      "overLife": { "radius": [[0, 0.05], [1, 0.02]], "density": [[0, 0.9], [1, 0.1]],
+                    "tint": [[0, [1, 1, 1]], [1, [0.3, 0.5, 1]]] }, "profile": "smooth" })";
+    std::ofstream(mFolder / "flakes.json") << R"({ "version": 1, "capacity": 60, "tickRate": 60,
+      "surface": { "type": "billboard", "material": "flake", "startRotation": [0, 360], "spin": [-90, 90] },
+      "emitters": [ { "rate": 40, "shape": { "type": "box", "size": [2, 1, 1] }, "speed": 0.2, "lifetime": 1 } ],
+      "overLife": { "radius": [[0, 0.1], [1, 0.2]], "density": [[0, 0.8], [1, 0.2]] } })";
+    std::ofstream(mFolder / "flight.json") << R"({ "version": 1, "capacity": 100, "tickRate": 60,
+      "medium": "smoke",
+      "emitters": [ { "rate": 20, "speed": [1, 2], "spread": 60, "lifetime": [0.5, 1] } ],
+      "modules": [ { "type": "gravity" }, { "type": "curl_noise", "strength": 5 } ],
+      "subEmitters": [ { "on": "way", "effect": "ribbon.json", "rate": 40 } ],
+      "overLife": { "radius": [[0, 0.08]] } })";
+    std::ofstream(mFolder / "thin.json") << R"({ "version": 1,
+      "camera": { "position": [0, 0.2, 3], "target": [0, 0.2, 0] },
+      "image": { "width": 64, "height": 48 },
+      "background": { "radiance": [0.2, 0.3, 0.4] },
+      "lights": [ { "type": "ambient", "radiance": [1, 1, 1] } ],
+      "materials": { "trail": { "type": "thin", "transmission": [0.5, 0.6, 0.9], "reflected": [0.3, 0.2, 0.1] },
+                     "flake": { "type": "thin", "transmission": [0.2, 0.9, 0.3], "emission": [0.5, 0.1, 0] } },
+      "media": { "smoke": { "extinction": [4, 4, 4], "albedo": [0.9, 0.8, 0.7] } },
+      "effects": [ { "file": "flight.json", "seed": 1, "time": 0.9 },
+                   { "file": "flakes.json", "seed": 2, "time": 0.9 } ] })";
+    const Outcome outcome =
+        runBrume({"bench", "--scenes", path("thin.json"), "--methods",
+                  "tile:epsilon=0,linked_list,weighted", "--repeats", "1", "--json", path("b.json")});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json rows = readJson("b.json")["rows"];
+    ASSERT_EQ(rows.size(), 3u);
+    for (const Json& row : rows) {
+        const Json& error = row["error"];
+        EXPECT_EQ(error["nonFinite"], 0) << row["method"];
+        // Edges of triangles, which the rasteriser snaps to sub-pixels.
+        EXPECT_LE(error["excluded"], 64 * 48 / 10) << row["method"];
+        if (row["method"] == "weighted") {
+            EXPECT_GT(error["rmse"], 1e-3);
+            EXPECT_LE(error["rmse"], 0.1);
+        } else {
+            EXPECT_LE(error["rmse"], 1e-4) << row["method"];
+        }
+    }
 }
 
 TEST_F(RenderCommandLine, SimulateOnDevice_EqualsTheReference) {

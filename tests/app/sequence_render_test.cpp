@@ -93,6 +93,35 @@ TEST_F(RenderSequence, SingleFrame_IsThatOfTheSequence) {
     EXPECT_EQ(read("one").at("f.###.exr"), read("whole").at("f.013.exr"));
 }
 
+TEST_F(RenderSequence, RibbonsWithTimesOfTheirOwn_AreThoseOfSingleFrames) {
+    std::ofstream(mFolder / "ribbon.json") << R"({ "version": 1, "capacity": 2000, "tickRate": 60,
+      "surface": { "type": "ribbon", "material": "trail" }, "emitters": [ { "lifetime": 0.3 } ],
+      "overLife": { "radius": [[0, 0.04], [1, 0.01]], "density": [[0, 0.9], [1, 0]] } })";
+    std::ofstream(mFolder / "flight.json") << R"({ "version": 1, "capacity": 100, "tickRate": 60,
+      "medium": "smoke",
+      "emitters": [ { "rate": 20, "speed": [1, 2], "spread": 60, "lifetime": [0.3, 0.8] } ],
+      "modules": [ { "type": "gravity" }, { "type": "curl_noise", "strength": 5 } ],
+      "subEmitters": [ { "on": "way", "effect": "ribbon.json", "rate": 40 } ],
+      "overLife": { "radius": [[0, 0.03]] } })";
+    std::ofstream(mFolder / "scene.json") << R"({ "version": 1,
+      "camera": { "position": [0, 0.3, 3], "target": [0, 0.3, 0] },
+      "image": { "width": 40, "height": 32 },
+      "lights": [ { "type": "ambient", "radiance": [1, 1, 1] } ],
+      "materials": { "trail": { "type": "thin", "transmission": [0.5, 0.6, 0.9], "reflected": [0.3, 0.2, 0.1] } },
+      "media": { "smoke": { "extinction": [4, 4, 4], "albedo": [0.9, 0.8, 0.7] } },
+      "effects": [ { "file": "flight.json", "seed": 1, "loop": 0.6, "prewarm": 0.4 },
+                   { "file": "flight.json", "seed": 2, "start": 0.55, "timeScale": 1.5 },
+                   { "file": "flight.json", "seed": 3, "timeScale": 0, "prewarm": 0.7 } ] })";
+    // At 24 Hz frame 13 lies before the second's start, 15 after the first's new beginning.
+    Outcome outcome = render("whole", {"--frames", "13:15"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto whole = read("whole");
+    EXPECT_NE(whole.at("f.013.exr"), whole.at("f.014.exr"));
+    outcome = render("one", {"--frame", "15"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(read("one").at("f.###.exr"), whole.at("f.015.exr"));
+}
+
 TEST_F(RenderSequence, KilledRun_LeavesWholeFramesAndGoesOn) {
     EXPECT_EQ(render("whole", {"--frames", "1:40"}).exitCode, 0);
     const Outcome killed = runBrumeUntil(command("killed", {"--frames", "1:40"}),

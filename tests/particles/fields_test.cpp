@@ -82,6 +82,55 @@ TEST(Fields, BirthsInADensity_FollowItsTrilinearValues) {
     EXPECT_LT(chi2, 20.5);  // 5 degrees of freedom, p = 0.001
 }
 
+TEST(Fields, BirthsOnALevelSet_AreUniformByArea) {
+    constexpr int kBands = 12, kSegments = 24, kSectors = 6;
+    const auto corner = [](int band, int segment) {
+        const double polar = kPi * band / kBands, around = 2 * kPi * segment / kSegments;
+        return 1.2 * dvec3(std::sin(polar) * std::cos(around), std::cos(polar),
+                           std::sin(polar) * std::sin(around));
+    };
+    scene::Effect effect = burstEffect(60000);
+    effect.emitters[0].shape = scene::EmitterShape::Volume;
+    effect.emitters[0].volume = placeField("ball");
+    addTestFields(effect);
+    scene::FieldValues ball = *effect.fields.at({"test.vdb", "ball", -1});
+    ball.surface.clear();
+    double areas[kBands][kSectors] = {}, all = 0;
+    for (int band = 0; band < kBands; ++band)
+        for (int segment = 0; segment < kSegments; ++segment) {
+            const dvec3 a = corner(band, segment), b = corner(band, segment + 1),
+                        c = corner(band + 1, segment + 1), d = corner(band + 1, segment);
+            for (const scene::EmitterTriangle& t :
+                 {scene::EmitterTriangle{a, b, c}, scene::EmitterTriangle{a, c, d}}) {
+                const double area = glm::length(glm::cross(t.b - t.a, t.c - t.a)) / 2;
+                if (area < 1e-9) continue;
+                ball.surface.push_back(t);
+                areas[band][segment * kSectors / kSegments] += area;
+                all += area;
+            }
+        }
+    effect.fields[{"test.vdb", "ball", -1}] =
+        std::make_shared<const scene::FieldValues>(std::move(ball));
+    CpuSimulation simulation(effect, 3);
+    simulation.step(1);
+    double counts[kBands][kSectors] = {};
+    for (const Particle& p : simulation.particles()) {
+        // Bands are flat: their borders are circles of one height.
+        const double polar = std::acos(std::clamp(p.position.y / 1.2, -1.0, 1.0));
+        const double around = std::atan2(p.position.z, p.position.x) / (2 * kPi);
+        const auto band = static_cast<int>(polar / kPi * kBands);
+        const auto sector = static_cast<int>((around < 0 ? around + 1 : around) * kSectors);
+        ++counts[std::min(band, kBands - 1)][std::min(sector, kSectors - 1)];
+    }
+    double chi2 = 0;
+    for (int band = 0; band < kBands; ++band)
+        for (int sector = 0; sector < kSectors; ++sector) {
+            const double wanted = 60000 * areas[band][sector] / all;
+            chi2 += (counts[band][sector] - wanted) * (counts[band][sector] - wanted) / wanted;
+        }
+    EXPECT_LT(chi2, 112.3);  // 71 degrees of freedom, p = 0.001
+}
+
 TEST(Fields, FastParticles_DoNotPassALevelSet) {
     scene::Effect effect = burstEffect(5000, 500, {1, 0, 0});
     effect.emitters[0].shape = scene::EmitterShape::Disc;

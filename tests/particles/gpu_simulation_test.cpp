@@ -1,79 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <particles/cpu_simulation.hpp>
-#include <particles/gpu_simulation.hpp>
-
 #include "effects.hpp"
-
-#include <cstring>
+#include "gpu_fixture.hpp"
 
 namespace brume::particles {
 namespace {
-
-/// A device with validation; a message fails the test.
-class GpuSimulationTest : public testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        sDevice = gpu::Device::create({.device = {},
-                                       .validate = true,
-                                       .synchronizationValidation = true,
-                                       .pipelineCacheFile = {}},
-                                      Log());
-        sSubmitter = std::make_unique<gpu::Submitter>(*sDevice);
-    }
-    static void TearDownTestSuite() {
-        sSubmitter.reset();
-        sDevice.reset();
-    }
-    void TearDown() override {
-        for (const std::string& message : sDevice->validationMessages()) ADD_FAILURE() << message;
-    }
-
-    gpu::Device& device() { return *sDevice; }
-
-    void runTicks(GpuSimulation& simulation, std::uint64_t ticks) {
-        sSubmitter->submitAndWait(
-            "ticks", [&](gpu::Commands& commands) { simulation.recordTicks(commands, ticks); });
-    }
-
-    /// Names the first particle that differs.
-    void expectSame(const GpuSimulation& gpu, const CpuSimulation& cpu) {
-        const SimulationState snapshot = gpu.readState(*sSubmitter);
-        EXPECT_EQ(snapshot.tick, cpu.tick());
-        for (std::uint32_t p = 0; p < cpu.populationCount(); ++p) {
-            SCOPED_TRACE(testing::Message() << "population " << p);
-            const Counters &a = snapshot.counters[p], &b = cpu.counters(p);
-            EXPECT_EQ(a.alive, b.alive);
-            EXPECT_EQ(a.born, b.born);
-            EXPECT_EQ(a.died, b.died);
-            EXPECT_EQ(a.rejected, b.rejected);
-            EXPECT_EQ(a.killed, b.killed);
-            EXPECT_LE(a.alive, gpu.slotCount(p));
-            expectSame(snapshot.populations[p], cpu.particles(p));
-        }
-        EXPECT_EQ(snapshot.hash(), cpu.hash());
-    }
-
-    static void expectSame(const std::vector<Particle>& got, const std::vector<Particle>& wanted) {
-        ASSERT_EQ(got.size(), wanted.size());
-        for (std::size_t i = 0; i < got.size(); ++i) {
-            const Particle &p = got[i], &q = wanted[i];
-            ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0)
-                << "particle " << i << ", birth " << p.birthIndex << " and " << q.birthIndex
-                << ", position " << p.position.x << " " << p.position.y << " " << p.position.z
-                << " and " << q.position.x << " " << q.position.y << " " << q.position.z
-                << ", velocity " << p.velocity.x << " " << p.velocity.y << " " << p.velocity.z
-                << " and " << q.velocity.x << " " << q.velocity.y << " " << q.velocity.z
-                << ", lifetime " << p.life.lifetimeTicks << " and " << q.life.lifetimeTicks;
-        }
-    }
-
-    static std::unique_ptr<gpu::Device> sDevice;
-    static std::unique_ptr<gpu::Submitter> sSubmitter;
-};
-
-std::unique_ptr<gpu::Device> GpuSimulationTest::sDevice;
-std::unique_ptr<gpu::Submitter> GpuSimulationTest::sSubmitter;
 
 TEST_F(GpuSimulationTest, FirstTicks_GiveTheBitsOfTheTwin) {
     GpuSimulation gpu(device(), busyEffect(), 17, 3);
@@ -95,66 +26,6 @@ TEST_F(GpuSimulationTest, ThousandTicksOfAllModules_GiveTheBitsOfTheTwin) {
         expectSame(gpu, cpu);
     }
     EXPECT_GT(cpu.counters().died, 5000u);
-}
-
-TEST_F(GpuSimulationTest, EachModuleAlone_GivesTheBitsOfTheTwin) {
-    const auto all = fullEffect().modules;
-    for (std::size_t i = 0; i <= all.size(); ++i) {
-        scene::Effect effect = fullEffect(500);
-        effect.subEmitters.clear();
-        // Gravity and drag bring particles to colliders.
-        effect.modules.resize(2);
-        if (i < all.size()) effect.modules.push_back(all[i]);
-        SCOPED_TRACE(effect.modules.back().type);
-        GpuSimulation gpu(device(), effect, 1);
-        CpuSimulation cpu(effect, 1);
-        runTicks(gpu, 70);
-        cpu.step(70);
-        expectSame(gpu, cpu);
-    }
-}
-
-TEST_F(GpuSimulationTest, EachSubEmitterAlone_GivesTheBitsOfTheTwin) {
-    const auto all = fullEffect().subEmitters;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        SCOPED_TRACE(i);
-        scene::Effect effect = fullEffect(500);
-        effect.modules.resize(2);
-        effect.modules.push_back(moduleSettings("collide_plane"));
-        effect.subEmitters = {all[i]};
-        GpuSimulation gpu(device(), effect, 1);
-        CpuSimulation cpu(effect, 1);
-        for (const int ticks : {1, 30, 70}) {
-            runTicks(gpu, static_cast<std::uint64_t>(ticks));
-            cpu.step(static_cast<std::uint64_t>(ticks));
-            expectSame(gpu, cpu);
-        }
-        EXPECT_GT(cpu.counters(1).born, 100u);
-    }
-}
-
-TEST_F(GpuSimulationTest, Everything_GivesTheBitsOfTheTwin) {
-    GpuSimulation gpu(device(), fullEffect(), 8);
-    CpuSimulation cpu(fullEffect(), 8);
-    for (const int ticks : {1, 20, 100}) {
-        runTicks(gpu, static_cast<std::uint64_t>(ticks));
-        cpu.step(static_cast<std::uint64_t>(ticks));
-        expectSame(gpu, cpu);
-    }
-    for (std::uint32_t p = 0; p < cpu.populationCount(); ++p)
-        EXPECT_GT(cpu.counters(p).alive, 50u) << p;
-}
-
-TEST_F(GpuSimulationTest, TenThousandTicksOfEverything_GiveTheBitsOfTheTwin) {
-    GpuSimulation gpu(device(), fullEffect(40), 21);
-    CpuSimulation cpu(fullEffect(40), 21);
-    for (int part = 0; part < 4; ++part) {
-        runTicks(gpu, 2500);
-        cpu.step(2500);
-        expectSame(gpu, cpu);
-    }
-    EXPECT_GT(cpu.counters(0).born, 3000u);
-    EXPECT_GT(cpu.counters(1).born, 300u);
 }
 
 TEST_F(GpuSimulationTest, Instances_EachHaveTheirOwnBitsInSharedDispatches) {
@@ -219,39 +90,6 @@ TEST_F(GpuSimulationTest, HugeForces_GiveTheBitsOfTheTwin) {
     EXPECT_GE(cpu.counters().died, 300u);
 }
 
-TEST_F(GpuSimulationTest, AnyWorkgroupAndChunkSize_GiveTheSameBits) {
-    CpuSimulation cpu(busyEffect(), 2);
-    cpu.step(150);
-    for (const GpuSimulationOptions options :
-         {GpuSimulationOptions{1, 64}, {7, 64}, {64, 4096}, {256, 5}, {256, 1}}) {
-        SCOPED_TRACE(testing::Message() << options.workgroupSize << " x " << options.chunkSize);
-        GpuSimulation gpu(device(), busyEffect(), 2, 0, options);
-        runTicks(gpu, 150);
-        expectSame(gpu, cpu);
-    }
-}
-
-TEST_F(GpuSimulationTest, TwentyRuns_GiveTheSameHash) {
-    CpuSimulation cpu(busyEffect(), 5);
-    cpu.step(60);
-    for (int run = 0; run < 20; ++run) {
-        GpuSimulation gpu(device(), busyEffect(), 5);
-        runTicks(gpu, 60);
-        EXPECT_EQ(gpu.readState(*sSubmitter).hash(), cpu.hash());
-    }
-}
-
-TEST_F(GpuSimulationTest, CapacitiesAroundChunkBorders_GiveTheBitsOfTheTwin) {
-    for (const std::uint32_t capacity : {1u, 2u, 127u, 128u, 129u, 1000u}) {
-        GpuSimulation gpu(device(), busyEffect(capacity), 2);
-        CpuSimulation cpu(busyEffect(capacity), 2);
-        runTicks(gpu, 130);
-        cpu.step(130);
-        EXPECT_GT(cpu.counters().rejected, 0u);
-        expectSame(gpu, cpu);
-    }
-}
-
 TEST_F(GpuSimulationTest, ManyChunks_AreScannedOverSeveralGroups) {
     scene::Effect effect = burstEffect(100000, 1);
     effect.emitters[0].lifetime = {0, 0.5};
@@ -286,6 +124,31 @@ TEST_F(GpuSimulationTest, AdvanceToThePast_StartsAnew) {
     expectSame(gpu, cpu);
 }
 
+TEST_F(GpuSimulationTest, LongFrames_StopAtTheirTicksAndCatchUp) {
+    scene::Effect effect = burstEffect(1, 1);
+    effect.capacity = 1000;
+    effect.emitters = {{.rate = 500, .speed = {1, 2}, .spread = 1, .lifetime = {0.1, 0.5}}};
+    CpuSimulation cpu(effect, 2);
+    GpuSimulation gpu(device(), effect, 2);
+    std::vector<std::uint64_t> behind;
+    const auto advance = [&](double seconds) {
+        sSubmitter->submitAndWait("advance", [&](gpu::Commands& commands) {
+            behind.push_back(gpu.recordAdvanceTo(commands, seconds, 50));
+        });
+    };
+    for (int i = 0; i < 3; ++i) advance(0.99);  // 118 ticks, no jump yet
+    EXPECT_EQ(behind, (std::vector<std::uint64_t>{68, 18, 0}));
+    cpu.advanceTo(0.99);
+    expectSame(gpu, cpu);
+    // An hour later only the last lifetime is run, in two calls.
+    behind.clear();
+    for (int i = 0; i < 2; ++i) advance(3600);
+    const std::uint64_t window = gpu.effect().aliveBound.windowTicks();
+    EXPECT_EQ(behind, (std::vector<std::uint64_t>{window - 50, 0}));
+    cpu.advanceTo(3600);
+    expectSame(gpu, cpu);
+}
+
 TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
     scene::Effect effect = busyEffect();
     effect.smoothProfile = true;
@@ -307,12 +170,9 @@ TEST_F(GpuSimulationTest, Appearance_MatchesTheTwinInCameraSpace) {
             device(), {.name = "spheres", .bytes = (slots + 4) * sizeof(shader::SphereData)});
         commands.fillBuffer(spheres, 0x7fc00000u);
         commands.computeTransferBarrier();
-        gpu.recordAppearance(commands, {.worldFromEffect = transform,
-                                        .cameraPosition = camera,
-                                        .medium = 7,
-                                        .firstId = 1000,
-                                        .spheres = &spheres,
-                                        .firstSphere = 3});
+        const std::array appearances = {GpuSimulation::Appearance{
+            .frame = transform, .medium = 7, .firstId = 1000, .firstSphere = 3}};
+        gpu.recordAppearance(commands, 0, {camera}, appearances, spheres);
     });
     const auto got = sSubmitter->readBuffer<shader::SphereData>(spheres, slots + 1,
                                                                 3 * sizeof(shader::SphereData));

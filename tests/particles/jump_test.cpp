@@ -40,6 +40,40 @@ TEST(Jump, EffectsWithMemory_RunThroughAllTicks) {
     EXPECT_EQ(jumpTick(compileEffect(burstEffect(3))[0], 700), 0u);  // lives for ever
 }
 
+TEST(Jump, To48Hours_RunsOneLifetimeOfTicks) {
+    const CompiledEffect effect = compileEffect(lastingEffect())[0];
+    const std::uint64_t window = effect.aliveBound.windowTicks();
+    EXPECT_LE(window, 0.8 * effect.tickRate + 2);
+    for (const double hours : {0.01, 1.0, 48.0}) {
+        const std::uint64_t tick = ticksAt(hours * 3600, effect.tickRate);
+        EXPECT_EQ(tick - jumpTick(effect, tick), window) << hours;
+    }
+    // Who is nearer than that goes on from where it is.
+    EXPECT_EQ(jumpTick(effect, 5000, 5000 - window), 0u);
+    EXPECT_EQ(jumpTick(effect, 5000, 5000 - window - 1), 5000 - window);
+}
+
+TEST(Time, PicturesBetweenTicks_MoveEvenly) {
+    scene::Effect effect = burstEffect(1, 3, {1, 0, 0});
+    effect.tickRate = 10;
+    effect.radius = {{{0, 0.05}}};
+    CpuSimulation simulation(effect, 1);
+    for (int i = 1; i <= 70; ++i) {
+        const double seconds = 0.1 + i / 70.0;
+        simulation.advanceTo(seconds);
+        const auto spheres = simulation.spheres(dmat4(1), 0, 0);
+        ASSERT_EQ(spheres.size(), 1u);
+        ASSERT_NEAR(spheres[0].center.x, 3 * seconds, 1e-5) << seconds;
+    }
+    // What dies between two ticks is not shown after that.
+    effect.emitters[0].lifetime = dvec2(0.25);
+    CpuSimulation mortal(effect, 1);
+    mortal.advanceTo(0.24);
+    EXPECT_EQ(mortal.spheres(dmat4(1), 0, 0).size(), 1u);
+    mortal.advanceTo(0.26);
+    EXPECT_EQ(mortal.spheres(dmat4(1), 0, 0).size(), 0u);
+}
+
 /// Seconds to ticks as frames of that rate ask for them.
 TEST(Time, AnyFrameRate_GivesTheSameBitsAtTheSameTime) {
     const scene::Effect effect = fullEffect(500);

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace brume::shader {
 namespace {
@@ -66,6 +69,71 @@ TEST(RandomWords, OtherSeedInstanceChannelNeighbourOrWord_IsUncorrelated) {
                     return unitFloat(randomWords({1, 2, 3}, i, 0).x);
                 }),
                 1, kBound);
+}
+
+/// A stream of uniform numbers by the index of what is counted.
+using Draw = std::function<float(uint)>;
+
+/// Everything that a number may be mistaken for: neighbours in each argument, and the other words.
+std::vector<std::pair<std::string, Draw>> neighbours() {
+    std::vector<std::pair<std::string, Draw>> draws;
+    const auto add = [&](const std::string& name, RandomStream stream, uint shift, uint channel,
+                         int word) {
+        draws.emplace_back(name, [=](uint i) {
+            return unitFloat(randomWords(stream, i + shift, channel)[word]);
+        });
+    };
+    for (int word = 0; word < 4; ++word)
+        add("word " + std::to_string(word), {1, 2, 3}, 0, 0, word);
+    for (const uint bit : {0u, 1u, 7u, 31u}) {
+        add("low seed bit " + std::to_string(bit), {1u ^ (1u << bit), 2, 3}, 0, 0, 0);
+        add("high seed bit " + std::to_string(bit), {1, 2u ^ (1u << bit), 3}, 0, 0, 0);
+        add("instance bit " + std::to_string(bit), {1, 2, 3u ^ (1u << bit)}, 0, 0, 0);
+    }
+    for (const uint channel : {1u, 2u, 6u, 18u, 16u * 7 + 2})
+        add("channel " + std::to_string(channel), {1, 2, 3}, 0, channel, 0);
+    for (const uint shift : {1u, 2u, 64u, 1000000u})
+        add("birth + " + std::to_string(shift), {1, 2, 3}, shift, 0, 0);
+    // Arguments that change places.
+    add("seed and instance", {3, 2, 1}, 0, 0, 0);
+    add("halves of the seed", {2, 1, 3}, 0, 0, 0);
+    return draws;
+}
+
+// Every pair of them, by linear correlation and by a chi-square over 8 x 8 cells, which also sees
+// what has no correlation. p = 0.001 in all, divided by the number of tests (Bonferroni).
+TEST(RandomWords, AnyTwoNeighbours_AreIndependent) {
+    constexpr uint kCount = 20000, kCells = 8;
+    const auto draws = neighbours();
+    std::vector<std::vector<float>> values(draws.size(), std::vector<float>(kCount));
+    for (std::size_t d = 0; d < draws.size(); ++d)
+        for (uint i = 0; i < kCount; ++i) values[d][i] = draws[d].second(i);
+    // 351 pairs: 1.4e-6 for each of 702 tests. |z| < 4.83; chi-square of 49 degrees < 110.4.
+    ASSERT_LE(draws.size() * (draws.size() - 1), 702u);
+    for (std::size_t a = 0; a < draws.size(); ++a)
+        for (std::size_t b = a + 1; b < draws.size(); ++b) {
+            double sum = 0;
+            std::array<double, kCells * kCells> cells{};
+            std::array<double, kCells> rows{}, columns{};
+            for (uint i = 0; i < kCount; ++i) {
+                const float x = values[a][i], y = values[b][i];
+                sum += (x - 0.5) * (y - 0.5);
+                const auto row = static_cast<uint>(x * kCells), column = static_cast<uint>(y * kCells);
+                ++cells[row * kCells + column];
+                ++rows[row];
+                ++columns[column];
+            }
+            const double z = sum * 12 / std::sqrt(double{kCount});
+            double chiSquare = 0;
+            for (uint row = 0; row < kCells; ++row)
+                for (uint column = 0; column < kCells; ++column) {
+                    const double wanted = rows[row] * columns[column] / kCount;
+                    const double difference = cells[row * kCells + column] - wanted;
+                    chiSquare += difference * difference / wanted;
+                }
+            EXPECT_LT(std::abs(z), 4.83) << draws[a].first << ", " << draws[b].first;
+            EXPECT_LT(chiSquare, 110.4) << draws[a].first << ", " << draws[b].first;
+        }
 }
 
 TEST(RandomWords, Histogram_PassesChiSquare) {

@@ -89,6 +89,55 @@ TEST(Spawn, Durations_EndRateAndBursts) {
     EXPECT_EQ(simulation.counters().born, 70u + 5 + 6);
 }
 
+// Lifetime, place and velocity of births: between instances, seeds, neighbours in order of birth and
+// the components of one particle. p = 0.001 over all, divided by the number of tests (Bonferroni).
+TEST(Spawn, InstancesSeedsAndNeighbours_AreUncorrelated) {
+    constexpr std::uint32_t kCount = 20000;
+    scene::Effect effect = burstEffect(kCount);
+    effect.emitters[0].shape = scene::EmitterShape::Box;
+    effect.emitters[0].size = dvec3(1);
+    effect.emitters[0].speed = {0, 1};
+    effect.emitters[0].spread = kPi;
+    effect.emitters[0].lifetime = {1, 2};
+
+    std::vector<std::vector<double>> series;
+    for (const auto& [seed, instance] : {std::pair{5, 0}, {5, 1}, {5, 2}, {6, 0}, {5 << 8, 1}}) {
+        const CompiledEffect compiled = compileEffect(effect)[0];
+        const auto random = instanceParameters(seed, instance, 0).random;
+        std::vector<std::vector<double>> own(5);
+        for (std::uint32_t i = 0; i < kCount; ++i) {
+            const Particle p =
+                shader::spawnParticle(compiled.parameters, nullptr, nullptr, random,
+                                      compiled.emitters[0], i, 1, 0, vec3(0), vec3(0));
+            const double values[] = {p.position.x, p.position.y, p.velocity.x, p.velocity.z,
+                                     p.life.lifetimeTicks};
+            for (int k = 0; k < 5; ++k) own[k].push_back(values[k]);
+        }
+        series.insert(series.end(), own.begin(), own.end());
+    }
+    for (std::vector<double>& s : series) {  // mean 0, variance 1
+        double mean = 0, square = 0;
+        for (const double v : s) mean += v / kCount;
+        for (double& v : s) square += (v -= mean) * v / kCount;
+        for (double& v : s) v /= std::sqrt(square);
+    }
+    // 25 series, each with all others and with all (itself included) one and seven births later:
+    // 300 + 2 * 625 tests, |z| < 4.98.
+    const auto z = [&](std::size_t a, std::size_t b, std::uint32_t shift) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i + shift < kCount; ++i) sum += series[a][i] * series[b][i + shift];
+        return sum / std::sqrt(double{kCount - shift});
+    };
+    for (std::size_t a = 0; a < series.size(); ++a)
+        for (std::size_t b = 0; b < series.size(); ++b) {
+            if (a < b) {
+                EXPECT_LT(std::abs(z(a, b, 0)), 4.98) << a << " " << b;
+            }
+            EXPECT_LT(std::abs(z(a, b, 1)), 4.98) << a << " " << b;
+            EXPECT_LT(std::abs(z(a, b, 7)), 4.98) << a << " " << b;
+        }
+}
+
 TEST(Spawn, Burst_IsBornAtItsTime) {
     scene::Effect effect = burstEffect(1, 1);
     effect.emitters[0].bursts = {{0.123, 1}};

@@ -219,6 +219,20 @@ TEST(Effect_Curves, UnsortedEmptyOrOutside_AreErrors) {
               start + "32: key \"overLife.radius[1][1]\": is -1, must be a number of at least 0");
 }
 
+TEST(Effect_Space, SpaceBudgetAndThinning_AreRead) {
+    const Effect effect = parse(
+        R"({"version":1,"medium":"m","emitters":[],"space":"world","budget":5,"thinning":{"distance":40}})");
+    EXPECT_TRUE(effect.isWorldSpace);
+    EXPECT_EQ(effect.budget, 5u);
+    EXPECT_EQ(effect.thinning.distance, 40);
+    EXPECT_EQ(effect.thinning.least, 0.01);
+    EXPECT_FALSE(parse(R"({"version":1,"medium":"m","emitters":[]})").isWorldSpace);
+    EXPECT_EQ(parseMessage("{\"version\":1,\"emitters\":[],\"surface\":{\"type\":\"ribbon\","
+                           "\"material\":\"m\"},\n\"thinning\":{\"distance\":40}}"),
+              "loading effect: e.json:2:12: key \"thinning\": is given with 'surface', with 'medium' "
+              "allowed");
+}
+
 TEST(Effect_Ranges, JustOutside_IsRefused) {
     for (const char* keys : {"\"rate\":-1", "\"bursts\":[{\"time\":-1,\"count\":1}]",
                              "\"bursts\":[{\"time\":0,\"count\":1.5}]", "\"duration\":0",
@@ -227,6 +241,8 @@ TEST(Effect_Ranges, JustOutside_IsRefused) {
         EXPECT_NE(parseMessage(withEmitter(keys)), "no error") << keys;
     for (const char* keys :
          {"\"capacity\":0", "\"capacity\":67108865", "\"tickRate\":0.5", "\"tickRate\":10001",
+          "\"space\":\"here\"", "\"budget\":0", "\"thinning\":{\"distance\":0}",
+          "\"thinning\":{\"distance\":1,\"least\":2}", "\"thinning\":{}",
           "\"profile\":\"soft\"", "\"modules\":[{}]", "\"modules\":[{\"type\":\"a\",\"x\":{}}]"})
         EXPECT_NE(parseMessage("{\"version\":1,\"medium\":\"m\",\"emitters\":[]," +
                                std::string(keys) + "}"),

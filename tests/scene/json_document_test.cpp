@@ -55,7 +55,13 @@ TEST(JsonDocument_Syntax, Errors_CarryLineAndColumn) {
     EXPECT_EQ(parseMessage("").substr(0, 20), "reading: a.json:1:1:");
     EXPECT_EQ(parseMessage("[1] 2").substr(0, 20), "reading: a.json:1:5:");
     EXPECT_EQ(parseMessage("[\"\x80\"]").substr(0, 20), "reading: a.json:1:3:");
-    EXPECT_NE(parseMessage("[NaN]").find("syntax error"), std::string::npos);
+    const std::string kNoNumber = " is no number, finite ones up to 1e30 are allowed";
+    EXPECT_NE(parseMessage("[NaN]").find("NaN" + kNoNumber), std::string::npos);
+    EXPECT_NE(parseMessage(R"({ "rate": -Infinity })").find("key \"rate\": -Infinity" + kNoNumber),
+              std::string::npos);
+    EXPECT_NE(parseMessage(R"({ "rate": 1e999 })").find("key \"rate\": 1e999" + kNoNumber),
+              std::string::npos);
+    EXPECT_NE(parseMessage("[none]").find("syntax error"), std::string::npos);
 }
 
 TEST(JsonDocument_Rules, WhatIsForbidden_IsNamedWithItsPlace) {

@@ -161,7 +161,8 @@ TEST(Scene_Files, EffectTextureAndEnvironment_AreLoaded) {
     folder.write("s.json", R"({ "version": 1, "media": { "fog": { "extinction": [1,1,1] } },
       "background": { "environment": "sky.exr", "scale": 0.5 },
       "materials": { "m": { "type": "opaque", "texture": "a.png" } },
-      "effects": [ { "file": "e.json", "transform": { "translate": [1,2,3] }, "seed": 7, "time": 2.5 } ] })");
+      "effects": [ { "file": "e.json", "transform": { "translate": [1,2,3] }, "seed": 7, "time": 2.5,
+                     "path": [[0,[0,0,0]],[2,[4,0,0]]] } ], "particleBudget": 777 })");
     const Scene scene = loadScene(folder / "s.json", Log());
     ASSERT_TRUE(scene.background.environment);
     EXPECT_EQ(scene.background.environment->texels[0], vec4(3, 3, 3, 1));
@@ -173,6 +174,9 @@ TEST(Scene_Files, EffectTextureAndEnvironment_AreLoaded) {
     EXPECT_EQ(scene.effects[0].time, 2.5);
     EXPECT_EQ(scene.effects[0].medium, 0u);
     EXPECT_EQ(scene.effects[0].worldFromEffect[3], dvec4(1, 2, 3, 1));
+    EXPECT_EQ(scene.effects[0].placed()[3], dvec4(5, 2, 3, 1));
+    EXPECT_EQ(scene.effects[0].placement().at(0.5)[3], dvec4(2, 2, 3, 1));
+    EXPECT_EQ(scene.particleBudget, 777u);
 }
 
 TEST(Scene_Errors, EachFault_IsNamedAtItsPlace) {
@@ -185,7 +189,8 @@ TEST(Scene_Errors, EachFault_IsNamedAtItsPlace) {
     EXPECT_EQ(memberMessage("\"cmera\": {}"),
               start +
                   "1: key \"cmera\": unknown key, known are $schema, background, camera, effects, "
-                  "image, lights, materials, media, meshes, render, spheres, version, volumes");
+                  "image, lights, materials, media, meshes, particleBudget, render, spheres, version, "
+                  "volumes");
     EXPECT_EQ(memberMessage("\"image\": { \"width\": 0 }"),
               start + "21: key \"image.width\": is 0, must be an integer from 1 to 16384");
     EXPECT_EQ(memberMessage("\"image\": { \"width\": 9.5 }"),

@@ -6,8 +6,7 @@
 // x d), d = x - c, t = max(0, 1/2 - |d|^2), q_c a random vector; its curl is sum 2 t^4 q_c - 8 t^3
 // (|d|^2 q_c - (d . q_c) d), exactly divergence-free. Differs: the potential is a cross product
 // with a random vector instead of three scalar noises: one kernel evaluation per corner, and no
-// derivative is approximated. Limits: repeats after 2^20 cells,
-// or 2^32 of drift.
+// derivative is approximated. Limits: repeats after 2^20 cells.
 #ifndef BRUME_SHADERS_PARTICLES_MODULES_CURL_NOISE_H
 #define BRUME_SHADERS_PARTICLES_MODULES_CURL_NOISE_H
 
@@ -37,10 +36,11 @@ BRUME_SHARED vec3 curlNoiseCorner(vec3 cell, vec3 d, uvec3 shift, uint seed) {
         cell - vec3(floor(cell.x * 9.5367431640625e-7f), floor(cell.y * 9.5367431640625e-7f),
                     floor(cell.z * 9.5367431640625e-7f)) *
                    1048576.0f;
-    uvec3 hash =
-        pcg3d(uvec3(uint(wrapped.x) + shift.x + seed,
-                    uint(wrapped.y) + shift.y + (seed ^ 0x9e3779b9u),
-                    uint(wrapped.z) + shift.z + seed * 0x85ebca6bu));
+    // The sums likewise, so that a corner has one number from wherever it is counted.
+    uvec3 corner = uvec3((uint(wrapped.x) + shift.x) & 0xfffffu, (uint(wrapped.y) + shift.y) & 0xfffffu,
+                         (uint(wrapped.z) + shift.z) & 0xfffffu);
+    uvec3 hash = pcg3d(uvec3(corner.x + seed, corner.y + (seed ^ 0x9e3779b9u),
+                             corner.z + seed * 0x85ebca6bu));
     BRUME_PRECISE vec3 q =
         vec3(signedUnitFloat(hash.x), signedUnitFloat(hash.y), signedUnitFloat(hash.z));
     BRUME_PRECISE float d2 = dotReplayable(d, d);

@@ -33,6 +33,7 @@ scene::Scene loadChangedScene(const RenderArguments& arguments, const Log& log) 
     }
     for (const auto& [key, value] : parseSettings(arguments.settings))
         scene.render.settings[key] = value;
+    if (arguments.particleBudget) scene.particleBudget = *arguments.particleBudget;
     if (arguments.seed)
         for (std::size_t i = 0; i < scene.effects.size(); ++i)
             scene.effects[i].seed = *arguments.seed + i;

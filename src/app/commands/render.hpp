@@ -26,6 +26,7 @@ struct RenderArguments {
     std::filesystem::path checkpoints;  ///< folder of simulation states; empty: none
     bool resume = false;                ///< leave out frames whose files are there
     double frameRate = kDefaultFrameRate;
+    std::optional<std::uint64_t> particleBudget;  ///< instead of the scene's
     std::optional<std::uint64_t> seed;  ///< of the first effect, counting up for the others
     std::vector<std::string> settings;  ///< "key=value"
     std::string against;                ///< "reference", an image file, or empty

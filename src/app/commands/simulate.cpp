@@ -153,6 +153,9 @@ void runSimulate(const SimulateArguments& arguments, const Log& log) {
                "frame\n",
                formatCount(static_cast<std::uint64_t>(row.frames), "frame"), row.secondsPerFrame,
                row.device, row.alive, row.born, row.died, row.rejected, row.killed, row.time.median);
+    if (row.rejected > 0)
+        log.warning(fmt::format("simulating: {} of {} births found no room; 'capacity' is used up",
+                                row.rejected, row.born + row.rejected));
     if (arguments.hash) fmt::print("hash {:016x}\n", row.hash);
     if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(row));
 }
