@@ -153,7 +153,9 @@ TEST_F(GpuReplayTest, EveryModuleInEveryRunAndWorkgroupSize_GivesTheHashOfTheTwi
         }
     }
     for (std::uint32_t p = 0; p < cpu.populationCount(); ++p)
-        EXPECT_GT(cpu.counters(p).born, 5u) << p;
+        if (ticks >= 200) {
+            EXPECT_GT(cpu.counters(p).born, 5u) << p;
+        }
 }
 
 TEST_F(GpuReplayTest, HundredThousandAt500MetresPerSecond_NonePassesAThinPlane) {
