@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include <optional>
+#include <utility>
 
 namespace brume::view {
 namespace {
@@ -58,6 +59,9 @@ class GlfwWindow : public Window {
         if (glfwCreateWindowSurface(device.instance(), mWindow, nullptr, &surface) != VK_SUCCESS)
             throw failure(kOpening, device.info().name, lastError());
         mSwapchain.emplace(device, surface);
+        // ImGui's own callbacks call these.
+        glfwSetWindowUserPointer(mWindow, this);
+        glfwSetKeyCallback(mWindow, &GlfwWindow::receiveKey);
         ImGui_ImplGlfw_InitForOther(mWindow, true);
         mDevice = &device;
         resize();
@@ -76,6 +80,8 @@ class GlfwWindow : public Window {
         mLastTime = now;
         return passed;
     }
+
+    std::vector<KeyPress> takeKeyPresses() override { return std::exchange(mPresses, {}); }
 
     double contentScale() const override {
         float x = 1, y = 1;
@@ -103,6 +109,11 @@ class GlfwWindow : public Window {
     }
 
   private:
+    static void receiveKey(GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action == GLFW_PRESS)
+            static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
+                ->mPresses.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+    }
     void open(int width, int height, const std::string& title) {
         if (!glfwVulkanSupported())
             throw failure(kOpening, "", "GLFW finds no Vulkan that could show images here");
@@ -123,6 +134,7 @@ class GlfwWindow : public Window {
     gpu::Device* mDevice = nullptr;
     std::optional<gpu::Swapchain> mSwapchain;
     std::string mTitle;
+    std::vector<KeyPress> mPresses;
     double mLastTime = 0;
 };
 

@@ -3,10 +3,14 @@
 
 #include <imgui.h>
 
+#include <chrono>
+#include <thread>
+
 namespace brume::view {
 namespace {
 
 constexpr double kSecondsPerPicture = 1 / 24.0;
+constexpr std::chrono::milliseconds kIdle(5);
 
 class OffscreenWindow : public Window {
   public:
@@ -22,12 +26,14 @@ class OffscreenWindow : public Window {
     }
     VkFormat format() const override { return VK_FORMAT_R8G8B8A8_UNORM; }
     bool isOpen() const override { return true; }  // a script ends it
-    double poll(bool) override {
+    double poll(bool isBusy) override {
+        if (!isBusy) std::this_thread::sleep_for(kIdle);
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = {static_cast<float>(mWidth), static_cast<float>(mHeight)};
         io.DeltaTime = static_cast<float>(kSecondsPerPicture);
         return kSecondsPerPicture;
     }
+    std::vector<KeyPress> takeKeyPresses() override { return {}; }
     double contentScale() const override { return 1; }
     void setTitle(const std::string&) override {}
     const gpu::Image* acquire() override { return &mImage; }

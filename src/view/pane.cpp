@@ -12,6 +12,7 @@ bool Pane::show(const Document& document, const PaneChoice& choice, const PaneVi
     const Shown wanted{document.revision(), choice, view};
     if (mShown == wanted) return false;
     mShown = wanted;
+    mIsRebuilt = false;
     const auto start = std::chrono::steady_clock::now();
     try {
         prepare(document, choice, view);
@@ -49,6 +50,7 @@ void Pane::prepare(const Document& document, const PaneChoice& choice, const Pan
 }
 
 void Pane::rebuild(const Document& document, const PaneChoice& choice, const PaneView& view) {
+    mIsRebuilt = true;
     std::unique_ptr<render::EffectParticles> effects;
     if (mRenderer) effects = mRenderer->takeEffects();
     mRenderer.reset();

@@ -45,6 +45,7 @@ class Pane {
     const PaneChoice& choice() const { return mChoice; }  ///< of the picture
     const render::Result& result() const { return mResult; }
     double wallMs() const { return mWallMs; }  ///< that the last picture took, all in all
+    bool isRebuilt() const { return mIsRebuilt; }  ///< that picture took a new renderer
     const std::string& problem() const { return mProblem; }
 
     /// The scene as it was drawn or read last, and what its effects show there.
@@ -72,6 +73,7 @@ class Pane {
     gpu::Image mImage;
     render::Result mResult;
     double mWallMs = 0;
+    bool mIsRebuilt = false;
     std::string mProblem;
     std::optional<Shown> mShown;  // or tried
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <map>
@@ -22,13 +23,15 @@ const std::map<std::string, std::size_t> kVerbs = {
     {"wait", 1},   {"frames", 1}, {"play", 0},     {"pause", 0},   {"seek", 1},    {"end", 1},
     {"method", 1}, {"right", 1},  {"set", 1},      {"shadow", 1},  {"split", 1},   {"show", 1},
     {"turn", 2},   {"shift", 2},  {"zoom", 1},     {"exposure", 1}, {"preview", 1}, {"key", 1},
+    {"resolution", 1},
     {"mouse", 2},  {"press", 2},  {"picture", 1},  {"window", 1},  {"record", 1},  {"quit", 0}};
 
 const std::set<std::string> kWithNumbers = {"frames", "seek",  "end",      "turn",  "shift",
-                                            "zoom",   "mouse", "exposure", "press"};
+                                            "zoom",   "mouse", "exposure", "press",
+                                            "resolution"};
 
 const std::map<std::string, std::set<std::string>> kWords = {
-    {"wait", {"settled", "reference", "recorded"}},
+    {"wait", {"settled", "compared", "reference", "recorded"}},
     {"show", {"picture", "reference", "errors"}},
     {"preview", {"on", "off"}}};
 
@@ -107,6 +110,7 @@ bool Script::mustWait(const Line& line, const Stage& stage) {
     if (line.verb != "wait") return false;
     if (line.words[0] == "settled") return !stage.isSettled();
     if (line.words[0] == "recorded") return stage.isRecording();
+    if (line.words[0] == "compared") return !stage.isSettled() || stage.comparison().divisor == 0;
     return !stage.isSettled() || stage.comparisonProgress() ||
            stage.comparison().divisor != stage.resolutionDivisor;
 }
@@ -139,6 +143,8 @@ void Script::run(const Line& line, Stage& stage, ScriptInput& input) {
     if (verb == "shift")
         stage.camera.apply({.shift = {number(line, 0), number(line, 1)}, .viewHeight = 500});
     if (verb == "zoom") stage.camera.apply({.zoom = number(line, 0)});
+    if (verb == "resolution")
+        stage.resolutionDivisor = std::clamp(static_cast<int>(number(line, 0)), 1, 8);
     if (verb == "exposure") stage.exposure = number(line, 0);
     if (verb == "key") input.key = keyOf(word);
     if (verb == "mouse" || verb == "press") input.mouse = {number(line, 0), number(line, 1)};

@@ -21,14 +21,15 @@ struct ScriptInput {
 };
 
 /// One command per line, '#' begins a comment:
-///   wait settled | reference | recorded     until all is drawn, compared, recorded
+///   wait settled | recorded                  until all is drawn, recorded
+///   wait compared | reference                until there is a comparison, one at full resolution
 ///   frames N                                 let N pictures pass
 ///   play, pause, seek SECONDS, end SECONDS
 ///   method NAME, right NAME                  of the picture, of the one to the right
 ///   set KEY=VALUE, shadow NAME
 ///   split on | off | FRACTION, show picture | reference | errors
 ///   turn X Y, shift X Y, zoom N              as if dragged by so many pixels, notches
-///   exposure STOPS, preview on | off
+///   exposure STOPS, resolution N, preview on | off
 ///   key NAME, mouse X Y, press X Y           keys: a letter, a digit, Space, Left, Right, Home, End, F1
 ///   picture FILE, window FILE, record FILE
 ///   quit

@@ -60,12 +60,13 @@ void Stage::update(ivec2 pixels, double seconds) {
 }
 
 bool Stage::isBusy() const {
-    return isRecording() || timeline.isPlaying || mStillSeconds < kStillAfter ||
-           mReference.isRunning() || mHasDrawn;
+    // The reference comes when it comes: drawing the window again and again would only delay it.
+    return isRecording() || timeline.isPlaying || mStillSeconds < kStillAfter || mHasDrawn;
 }
 
 bool Stage::isSettled() const {
-    return !isRecording() && !timeline.isPlaying && mStillSeconds >= kStillAfter && !mHasDrawn;
+    return mLastView && !isRecording() && !timeline.isPlaying && mStillSeconds >= kStillAfter &&
+           !mHasDrawn;
 }
 
 PaneView Stage::makeView(ivec2 pixels, int divisor) const {
@@ -95,6 +96,7 @@ void Stage::updatePanes(ivec2 pixels) {
     const PaneView view = makeView(pixels, mDivisor);
     mHasDrawn = false;
     double wallMs = 0;
+    bool isRebuilt = false;
     for (std::size_t i = 0; i < paneCount(); ++i) {
         const std::string before = mPanes[i].problem();
         const bool isOther = !(mPanes[i].choice() == choices[i]);
@@ -108,9 +110,10 @@ void Stage::updatePanes(ivec2 pixels) {
         }
         mHistories[i].add(mPanes[i].result());
         wallMs += mPanes[i].wallMs();
+        isRebuilt = isRebuilt || mPanes[i].isRebuilt();
         mHasDrawn = true;
     }
-    if (wallMs > 0) preview.addPicture(mDivisor, wallMs);
+    if (wallMs > 0 && !isRebuilt) preview.addPicture(mDivisor, wallMs);
 }
 
 void Stage::saveScreenshot(const std::filesystem::path& file) {

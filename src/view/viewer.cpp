@@ -81,11 +81,14 @@ class Viewer {
 
     /// Whether it was the last one.
     bool showFrame() {
-        const double seconds = mWindow->poll(mStage.isBusy() || mScript);
+        const double seconds = mWindow->poll(mStage.isBusy());
         const ScriptInput input = mScript ? mScript->step(mStage) : ScriptInput();
         applyInput(input);
         ImGui::NewFrame();
-        const bool isQuit = takeKeys(mStage, mUiState);
+        std::vector<KeyPress> presses = mWindow->takeKeyPresses();
+        if (input.key != 0) presses.push_back({input.key});
+        bool isQuit = false;
+        for (const KeyPress& press : presses) isQuit |= takeKey(mStage, mUiState, press);
         const ivec2 pixels = layOut(seconds);
         ImGui::Render();
         mStage.update(pixels, seconds);
@@ -103,9 +106,6 @@ class Viewer {
     // On top of what the window has taken from the user.
     void applyInput(const ScriptInput& input) {
         ImGuiIO& io = ImGui::GetIO();
-        if (mHeldKey != 0) io.KeysDown[mHeldKey] = false;
-        mHeldKey = input.key;
-        if (input.key != 0) io.KeysDown[input.key] = true;
         if (!input.mouse) return;
         io.MousePos = {static_cast<float>(input.mouse->x), static_cast<float>(input.mouse->y)};
         io.MouseDown[0] = input.isPressed;
@@ -181,7 +181,6 @@ class Viewer {
     std::optional<UiPass> mUi;
     UiState mUiState;
     std::optional<Script> mScript;
-    int mHeldKey = 0;
 
   public:
     ~Viewer() { mWindow.reset(); }

@@ -23,6 +23,12 @@ enum Key : int {
     kKeyF1 = 290
 };
 
+/// One press of a key.
+struct KeyPress {
+    int key = 0;
+    bool isControl = false;  ///< with the control key
+};
+
 class Window {
   public:
     virtual ~Window() = default;
@@ -37,6 +43,9 @@ class Window {
     /// Takes input and begins an ImGui frame's input; waits a little unless `isBusy`. Returns the
     /// seconds since the last call.
     virtual double poll(bool isBusy) = 0;
+    /// Keys pressed since the last call, also those released again before poll(): a slow picture
+    /// swallows none.
+    virtual std::vector<KeyPress> takeKeyPresses() = 0;
     virtual double contentScale() const = 0;  ///< of text, e.g. 2 on a dense screen
     virtual void setTitle(const std::string& title) = 0;
 

@@ -176,8 +176,10 @@ void showShadows(const Stage& stage, PaneChoice& choice) {
         if (store.name == choice.shadow)
             for (const scene::SettingInfo& setting : store.settings)
                 showSetting(setting, "shadow.", choice.settings);
+    if (!ImGui::TreeNodeEx("shadow maps", ImGuiTreeNodeFlags_SpanAvailWidth)) return;
     for (const scene::SettingInfo& setting : shadows::listMapSettings())
         showSetting(setting, "shadow.", choice.settings);
+    ImGui::TreePop();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <view/panels/panels.hpp>
-#include <view/window.hpp>
 
 #include <oit/method_info.hpp>
 
@@ -10,8 +9,6 @@
 
 namespace brume::view {
 namespace {
-
-bool isPressed(int key) { return ImGui::IsKeyPressed(key, false); }
 
 /// The method after it in the registry.
 void chooseNextMethod(Stage& stage) {
@@ -46,30 +43,34 @@ constexpr KeyHelp kHelp[] = {
     {"F1", "this list"},
     {"Ctrl Q", "quit"}};
 
+void takeTimelineKey(Timeline& timeline, int key) {
+    if (key == kKeySpace) timeline.toggle();
+    if (key == kKeyLeft) timeline.step(-1);
+    if (key == kKeyRight) timeline.step(1);
+    if (key == kKeyHome) timeline.seek(0);
+    if (key == kKeyEnd) timeline.seek(timeline.end());
+}
+
 }  // namespace
 
-bool takeKeys(Stage& stage, UiState& ui) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput) return false;
-    if (io.KeyCtrl) return isPressed('Q');
-    if (isPressed(kKeySpace)) stage.timeline.toggle();
-    if (isPressed(kKeyLeft)) stage.timeline.step(-1);
-    if (isPressed(kKeyRight)) stage.timeline.step(1);
-    if (isPressed(kKeyHome)) stage.timeline.seek(0);
-    if (isPressed(kKeyEnd)) stage.timeline.seek(stage.timeline.end());
-    if (isPressed('F'))
-        stage.camera.mode =
-            stage.camera.mode == CameraMode::Fly ? CameraMode::Orbit : CameraMode::Fly;
-    if (isPressed('R')) stage.camera.reset();
-    if (isPressed('M')) chooseNextMethod(stage);
-    if (isPressed('C')) stage.isSplit = !stage.isSplit;
-    if (isPressed('1')) stage.show = Show::Picture;
-    if (isPressed('2')) stage.show = Show::Reference;
-    if (isPressed('3')) stage.show = Show::Errors;
-    if (isPressed('P')) stage.saveScreenshot("brume.png");
-    if (isPressed('H')) ui.isSideShown = !ui.isSideShown;
-    if (isPressed(kKeyF1)) ui.isHelpShown = !ui.isHelpShown;
-    if (isPressed(kKeyEscape)) ui.isHelpShown = false;
+bool takeKey(Stage& stage, UiState& ui, const KeyPress& press) {
+    if (ImGui::GetIO().WantTextInput) return false;
+    const int key = press.key;
+    if (press.isControl) return key == 'Q';
+    takeTimelineKey(stage.timeline, key);
+    CameraControl& camera = stage.camera;
+    if (key == 'F')
+        camera.mode = camera.mode == CameraMode::Fly ? CameraMode::Orbit : CameraMode::Fly;
+    if (key == 'R') camera.reset();
+    if (key == 'M') chooseNextMethod(stage);
+    if (key == 'C') stage.isSplit = !stage.isSplit;
+    if (key == '1') stage.show = Show::Picture;
+    if (key == '2') stage.show = Show::Reference;
+    if (key == '3') stage.show = Show::Errors;
+    if (key == 'P') stage.saveScreenshot("brume.png");
+    if (key == 'H') ui.isSideShown = !ui.isSideShown;
+    if (key == kKeyF1) ui.isHelpShown = !ui.isHelpShown;
+    if (key == kKeyEscape) ui.isHelpShown = false;
     return false;
 }
 

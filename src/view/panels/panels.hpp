@@ -4,6 +4,7 @@
 
 #include <view/stage.hpp>
 #include <view/ui_pass.hpp>
+#include <view/window.hpp>
 
 #include <array>
 #include <string>
@@ -42,8 +43,8 @@ void showOutput(Stage& stage, UiState& ui);
 /// List of the keys, over everything.
 void showHelp(UiState& ui);
 
-/// Keys that no text field wants. Whether the program shall end.
-bool takeKeys(Stage& stage, UiState& ui);
+/// What a key does, unless a text field wants it. Whether the program shall end.
+bool takeKey(Stage& stage, UiState& ui, const KeyPress& press);
 
 /// Explains the item before it when the mouse rests there.
 void explain(const std::string& text);

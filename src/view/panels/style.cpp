@@ -21,6 +21,7 @@ void setColors(ImGuiStyle& style) {
     colors[ImGuiCol_TextDisabled] = grey(0.55f);
     colors[ImGuiCol_WindowBg] = grey(0.1f);
     colors[ImGuiCol_PopupBg] = grey(0.14f, 0.98f);
+    colors[ImGuiCol_TitleBgActive] = colors[ImGuiCol_TitleBg] = grey(0.2f);
     colors[ImGuiCol_Border] = grey(0.22f);
     colors[ImGuiCol_FrameBg] = grey(0.18f);
     colors[ImGuiCol_FrameBgHovered] = grey(0.24f);

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures, comparison and recording without a window, under validation.
+#include <bench/measure.hpp>
+#include <bench/prepare.hpp>
+#include <core/image_io.hpp>
+#include <gpu/gpu_fixture.hpp>
+#include <scene/loader.hpp>
+#include <view/stage.hpp>
+
+#include "scratch_folder.hpp"
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace brume::view {
+namespace {
+
+constexpr ivec2 kSize(48, 32);
+
+class StageTest : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        mStage = std::make_unique<Stage>(device(), mQuiet, mFolder / "scene.json");
+        mStage->preview.isEnabled = false;
+    }
+    void TearDown() override {
+        mStage.reset();
+        GpuTest::TearDown();
+    }
+
+    /// Updates until that holds; fails where it takes a minute.
+    void updateUntil(const std::function<bool()>& isReached) {
+        const auto start = std::chrono::steady_clock::now();
+        do {
+            mStage->update(kSize, 1 / 24.0);
+            if (std::chrono::steady_clock::now() - start > std::chrono::minutes(1))
+                FAIL() << "never reached; " << mStage->message().text;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        } while (!isReached());
+    }
+    void settle() {
+        updateUntil([this] { return mStage->isSettled(); });
+    }
+    Image shot() {
+        const auto file = mFolder / "shot.exr";
+        mStage->saveScreenshot(file);
+        EXPECT_FALSE(mStage->message().isError) << mStage->message().text;
+        return readImage(file);
+    }
+
+    const test::ScratchFolder mFolder;
+    const Log mQuiet;
+    std::unique_ptr<Stage> mStage;
+};
+
+TEST_F(StageTest, FirstPicture_IsThatOfTheRenderer) {
+    settle();
+    render::PreparedScene scene =
+        bench::prepareScene(scene::loadScene(mFolder / "scene.json", mQuiet), mQuiet);
+    render::Renderer renderer(device(), scene, {.method = "tile"}, mQuiet);
+    EXPECT_EQ(computeHash(shot()), computeHash(renderer.renderFrame().image));
+    EXPECT_TRUE(mStage->pane(0).image());
+    EXPECT_GT(mStage->history(0).names().size(), 2u);
+}
+
+// What moves, goes on in time or changes its size is what a new renderer makes of it.
+TEST_F(StageTest, MovedView_EqualsANewRenderer) {
+    settle();
+    const std::uint64_t first = computeHash(shot());
+    mStage->camera.apply({.turn = {80, 20}});
+    mStage->timeline.seek(1.75);
+    settle();
+    const Image moved = shot();
+    EXPECT_NE(computeHash(moved), first);
+    render::PreparedScene scene =
+        bench::prepareScene(scene::loadScene(mFolder / "scene.json", mQuiet), mQuiet);
+    scene.scene.camera = mStage->camera.camera();
+    for (auto& effect : scene.scene.effects) effect.time = 1.75;
+    render::Renderer renderer(device(), scene, {.method = "tile"}, mQuiet);
+    EXPECT_EQ(computeHash(moved), computeHash(renderer.renderFrame().image));
+    EXPECT_FALSE(mStage->pane(0).isRebuilt());
+    // And back, also in time.
+    mStage->camera.reset();
+    mStage->timeline.seek(1.5);
+    settle();
+    EXPECT_EQ(computeHash(shot()), first);
+}
+
+TEST_F(StageTest, ResizedPicture_NeedsNoNewRenderer) {
+    settle();
+    for (const ivec2 size : {ivec2(31, 17), ivec2(48, 32), ivec2(96, 64), ivec2(1, 1)}) {
+        mStage->update(size, 1);
+        EXPECT_FALSE(mStage->pane(0).isRebuilt());
+        EXPECT_EQ(mStage->pane(0).image()->extent().width, static_cast<std::uint32_t>(size.x));
+    }
+    mStage->update({0, 0}, 1);  // minimised
+    EXPECT_TRUE(mStage->pane(0).problem().empty());
+}
+
+TEST_F(StageTest, Playing_ChangesThePicture) {
+    settle();
+    const std::uint64_t before = computeHash(shot());
+    mStage->timeline.toggle();
+    for (int i = 0; i < 3; ++i) mStage->update(kSize, 0.1);
+    mStage->timeline.toggle();
+    EXPECT_NEAR(mStage->timeline.now(), 1.8, 1e-9);
+    settle();
+    EXPECT_NE(computeHash(shot()), before);
+}
+
+TEST_F(StageTest, WrongSetting_IsToldAndThePictureStays) {
+    settle();
+    const PaneChoice good = mStage->choices[0];
+    mStage->choices[0].settings["epsilon"] = "7";
+    mStage->update(kSize, 0.1);
+    EXPECT_TRUE(mStage->message().isError);
+    EXPECT_NE(mStage->message().text.find("epsilon"), std::string::npos);
+    EXPECT_TRUE(mStage->pane(0).image());
+    mStage->choices[0] = good;
+    settle();
+    EXPECT_TRUE(mStage->pane(0).problem().empty());
+}
+
+TEST_F(StageTest, OtherMethodAndShadow_AreShownBeside) {
+    mStage->isSplit = true;
+    mStage->choices[1] = {"sorted", {}, "none"};
+    settle();
+    EXPECT_EQ(mStage->pane(0).choice().method, "tile");
+    EXPECT_EQ(mStage->pane(1).choice().method, "sorted");
+    shot();
+    EXPECT_NE(computeHash(readImage(mFolder / "shot.exr")),
+              computeHash(readImage(mFolder / "shot-b.exr")));
+}
+
+TEST_F(StageTest, Errors_AreMeasuredInTheBackgroundAndCancelledByMovement) {
+    mStage->isSplit = true;
+    mStage->choices[0].settings["epsilon"] = "0";
+    mStage->choices[1] = {"unordered", {}, ""};
+    mStage->show = Show::Errors;
+    updateUntil([this] { return mStage->comparison().divisor == 1; });
+    // Shadow maps have texels, so not even the exact method is exact here; the wrong one is worse.
+    const auto& metrics = mStage->comparison().metrics;
+    EXPECT_GT(metrics[1].rmse, 2 * metrics[0].rmse);
+    EXPECT_EQ(mStage->comparison().errors[1].extent().width, 48u);
+    mStage->camera.apply({.turn = {5, 0}});
+    mStage->update(kSize, 0.01);
+    EXPECT_EQ(mStage->comparison().divisor, 0);
+    EXPECT_FALSE(mStage->comparisonProgress());
+}
+
+TEST_F(StageTest, Recording_WritesEveryFrameInTheScenesSize) {
+    mStage->timeline.frameRate = 4;
+    mStage->timeline.setEnd(0.5);
+    mStage->startRecording(mFolder / "f_##.png");
+    ASSERT_TRUE(mStage->isRecording());
+    updateUntil([this] { return !mStage->isRecording(); });
+    EXPECT_FALSE(mStage->message().isError) << mStage->message().text;
+    for (const char* name : {"f_00.png", "f_01.png", "f_02.png"})
+        EXPECT_EQ(readImage(mFolder / name).width, 48) << name;
+    EXPECT_FALSE(std::filesystem::exists(mFolder / "f_03.png"));
+}
+
+TEST_F(StageTest, ChangedFile_IsShown) {
+    settle();
+    const std::uint64_t before = computeHash(shot());
+    std::string text = test::kScene;
+    text.replace(text.find("0.1, 0.2, 0.3"), 13, "0.9, 0.1, 0.1");
+    mFolder.write("scene.json", text);
+    updateUntil([this] { return mStage->document.loads() == 2; });
+    settle();
+    EXPECT_NE(computeHash(shot()), before);
+}
+
+}  // namespace
+}  // namespace brume::view
