@@ -29,6 +29,7 @@ struct FrameData {
     uint mediumCount;
     float far;             // m; depth range of an orthographic camera
     uint64_t brickValues;  // address of float[]
+    uint64_t lightShares;  // address of vec3[]: of spheres shadowed as a whole, lightCount for each
 };
 
 BRUME_CONST uint kLightDirectional = 0u;
@@ -84,7 +85,7 @@ BRUME_CONST uint kTileSize = 8u;  // pixels per edge of a screen tile
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::FrameData) == 176);
+static_assert(sizeof(brume::shader::FrameData) == 184);
 static_assert(offsetof(brume::shader::FrameData, size) == 124);
 static_assert(sizeof(brume::shader::LightData) == 64);
 static_assert(sizeof(brume::shader::MediumData) == 44);

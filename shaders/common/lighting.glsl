@@ -5,6 +5,7 @@
 #include "../shadows/transmittance.glsl"
 #include "bindings.glsl"
 #include "phase.glsl"
+#include "shadowing.glsl"
 
 // Irradiance on a plane facing a light at `position`, with nothing in between; `travel`: direction
 // of the light there.
@@ -31,13 +32,31 @@ vec3 lightIrradiance(LightData light, uint index, vec3 position, out vec3 travel
     return freeIrradiance(light, position, travel) * transmittance(index, position);
 }
 
-// Radiance that a medium with albedo 1 scatters into `-rayDirection` per unit of optical depth.
-vec3 scatteredRadiance(MediumData medium, vec3 position, vec3 rayDirection) {
+layout(buffer_reference, scalar) readonly buffer LightShares { vec3 at[]; };
+
+// Share of light `index` that arrives at a sphere which is shadowed as a whole.
+vec3 wholeShare(uint shares, uint index) {
+    return LightShares(frame.lightShares).at[shares * frame.lightCount + index];
+}
+
+// Share of a light at a place in a medium; `shares`: of its sphere, or kNoShares.
+vec3 mediumShare(uint shares, uint index, vec3 position) {
+    bool isWhole = kWholeShadows && shares != kNoShares;
+    vec3 share = vec3(1);
+    if (kSampledShadows && !isWhole) share = transmittance(index, position);
+    if (isWhole) share = wholeShare(shares, index);
+    return share;
+}
+
+// Radiance that a medium with albedo 1 scatters into `-rayDirection` per unit of optical depth;
+// `shares`: of its sphere, or kNoShares.
+vec3 scatteredRadiance(MediumData medium, uint shares, vec3 position, vec3 rayDirection) {
     vec3 sum = frame.ambient;
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec3 travel;
-        vec3 irradiance = lightIrradiance(lights[i], i, position, travel);
-        sum += irradiance * phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
+        vec3 irradiance = freeIrradiance(lights[i], position, travel);
+        sum += irradiance * mediumShare(shares, i, position) *
+               phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
     }
     return sum;
 }

@@ -15,7 +15,11 @@ struct SphereData {
     uint medium;    // index into the media
     uint id;        // unique, stable when the order changes
     uint profile;   // kProfileConstant or kProfileSmooth
+    uint shares;    // its number among spheres shadowed as a whole (shadows/spheres), or kNoShares:
+                    // shadows are asked for at each place
 };
+
+BRUME_CONST uint kNoShares = 0xffffffffu;
 
 BRUME_CONST uint kProfileConstant = 0u;
 BRUME_CONST uint kProfileSmooth = 1u;  // density (1 - r^2/R^2)^2
@@ -23,7 +27,7 @@ BRUME_CONST uint kProfileSmooth = 1u;  // density (1 - r^2/R^2)^2
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::SphereData) == 56);
+static_assert(sizeof(brume::shader::SphereData) == 60);
 static_assert(offsetof(brume::shader::SphereData, tint) == 28);
 #endif
 #endif

@@ -22,7 +22,8 @@ void main() {
                 gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     TickTotals state = totals[push.instance];
     if (slot >= state.slots) return;
-    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile);
+    SphereData sphere = SphereData(vec3(0), vec3(0), 0, vec3(0), 0, push.medium, 0u, push.profile,
+                                   kNoShares);
     if (slot < state.counters.alive) {
         uint i = push.firstSlot + slot;
         ParticleLife life = lives[i];
@@ -40,6 +41,7 @@ void main() {
         sphere.tint = appearance.tint;
         sphere.density = appearance.density;
         sphere.id = push.firstId + birthIndices[i];
+        if (push.isShadowedWhole != 0u) sphere.shares = push.firstSphere + slot;
     }
     spheres[push.firstSphere + slot] = sphere;
 }

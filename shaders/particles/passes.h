@@ -111,6 +111,7 @@ struct AppearancePush {
     uint medium;
     uint firstId;
     uint profile;
+    uint isShadowedWhole;  // else at each place
     uint instance;
     uint firstSlot;          // of the instance
     float sinceTick;         // ticks since the end of lastTick, [0, 1)

@@ -132,9 +132,12 @@ void Model::setMedium(BrumeId id, const BrumeMedium& medium) {
     scene::Medium& target = mPrepared.scene.media[mediumOf(kCall, id)];
     scene::Medium fresh = toMedium(kCall, medium);
     fresh.name = target.name;
-    // Pipelines are made for grey or for coloured media.
+    // Pipelines are made for grey or for coloured media, and for those that scatter.
     const auto isGrey = [](const dvec3& v) { return v.x == v.y && v.y == v.z; };
-    if (isGrey(fresh.extinction) != isGrey(target.extinction)) ++mStructure;
+    const auto scatters = [](const scene::Medium& m) { return m.extinction * m.albedo != dvec3(0); };
+    if (isGrey(fresh.extinction) != isGrey(target.extinction) ||
+        scatters(fresh) != scatters(target))
+        ++mStructure;
     target = std::move(fresh);
     ++mValues;
 }

@@ -105,7 +105,8 @@ void Scene::make(const Made& wanted) {
         bounds.extend(mModel.effectBounds());
         composer->addShadows(bounds);
         composer->shadows->reserve(mContext->shadowPairs());
-        composer->scene.setShadows(composer->shadows->addresses());
+        composer->scene.setShadows(composer->shadows->addresses(),
+                                     composer->shadows->sharesAddress());
         composer->areShadowsReady = true;
     }
     const BrumeInside inside = mModel.inside();

@@ -38,6 +38,7 @@ std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gp
 
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
     return {{shader::kConstantShadowStores, needs.shadowStores},
+            {shader::kConstantShadowing, needs.shadowing},
             {shader::kConstantGlossy, needs.glossy}};
 }
 

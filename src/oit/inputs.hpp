@@ -16,7 +16,9 @@ struct Needs {
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
-    bool varyingLight = false;        ///< point or spot lights, or shadows, on media that scatter
+    bool varyingLight = false;        ///< on media that scatter: point or spot lights, or shadows
+                                      ///< asked for at each place
+    bool wholeShadows = false;        ///< some spheres that scatter are shadowed as a whole
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
@@ -31,6 +33,7 @@ struct Needs {
     std::uint32_t media = 0;
     std::uint32_t lights = 0;         ///< without ambient ones
     std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
+    std::uint32_t shadowing = 0;      ///< likewise; 0 where there are no stores
 };
 
 /// One mesh of thin or solid triangles.

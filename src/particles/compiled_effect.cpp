@@ -205,6 +205,7 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
         .capacity = effect.capacity,
         .tickRate = effect.tickRate,
         .profile = effect.smoothProfile ? scene::Profile::Smooth : scene::Profile::Constant,
+        .shadowing = effect.shadowing,
         .schedule = SpawnSchedule(effect),
         .aliveBound = AliveBound(effect.capacity, longestLifetime(effect) * effect.tickRate)};
     shader::EffectParameters& p = compiled.parameters;
@@ -378,7 +379,8 @@ std::vector<scene::MediumSphere> makeSpheres(const CompiledEffect& effect,
                            .tint = look.tint,
                            .medium = medium,
                            .id = firstId + particle.birthIndex,
-                           .profile = effect.profile});
+                           .profile = effect.profile,
+                           .shadowing = effect.shadowing});
     }
     return spheres;
 }

@@ -27,6 +27,7 @@ struct CompiledEffect {
     std::uint32_t capacity = 0;
     double tickRate = 0;  ///< 1/s
     scene::Profile profile = scene::Profile::Constant;
+    scene::Shadowing shadowing = scene::Shadowing::Particle;
     shader::EffectParameters parameters{};
     std::vector<shader::EmitterParameters> emitters;
     std::vector<shader::EmitterTriangle> triangles;

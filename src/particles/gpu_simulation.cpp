@@ -87,6 +87,7 @@ void GpuSimulation::recordAppearance(gpu::Commands& commands, const Appearance& 
     push.medium = appearance.medium;
     push.firstId = appearance.firstId;
     push.profile = static_cast<std::uint32_t>(compiled.profile);
+    push.isShadowedWhole = compiled.shadowing == scene::Shadowing::Particle;
     push.instance = appearance.instance;
     push.firstSlot = appearance.instance * compiled.capacity;
     push.sinceTick = static_cast<float>(mSinceTick);

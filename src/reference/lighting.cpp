@@ -38,7 +38,7 @@ double evaluatePhase(scene::PhaseType type, double g, double cosTheta) {
 
 Lighting::Lighting(const scene::Scene& scene, const MediaSet& media, const Occlusion& occlusion,
                    bool withShadows)
-    : mOcclusion(occlusion), mWithShadows(withShadows) {
+    : mMedia(media), mOcclusion(occlusion), mWithShadows(withShadows) {
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) mAmbient += light.color;
         if (light.type == scene::LightType::Ambient || light.color == dvec3(0)) continue;
@@ -55,6 +55,9 @@ Lighting::Lighting(const scene::Scene& scene, const MediaSet& media, const Occlu
         if (found == mPhases.end()) mPhases.push_back(phase);
         mHasScattering = mHasScattering || source.scattering != dvec3(0);
     }
+    if (!hasWholeShadows()) return;
+    mShares.resize(media.sphereCount() * mLights.size());
+    mHasShares = std::make_unique<std::once_flag[]>(media.sphereCount());
 }
 
 bool Lighting::castsShadows(const scene::Light& light) const {
@@ -78,19 +81,51 @@ dvec3 Lighting::transmittance(const Arrival& arrival, const dvec3& position, dou
     return mOcclusion.transmittance({position, -arrival.travel}, tMin, arrival.distance, except);
 }
 
-void Lighting::scatter(const dvec3& position, const dvec3& direction,
-                       std::span<dvec3> perClass) const {
-    std::fill(perClass.begin(), perClass.end(), mAmbient);
-    for (const scene::Light& light : mLights) {
-        Arrival arrival = arrive(light, position);
+void Lighting::scatter(const dvec3& position, const dvec3& direction, bool withShadows,
+                       std::span<dvec3> sample) const {
+    const std::size_t classes = classCount();
+    std::fill_n(sample.begin(), classes, mAmbient);
+    std::fill(sample.begin() + static_cast<std::ptrdiff_t>(classes), sample.end(), dvec3(0));
+    for (std::size_t l = 0; l < mLights.size(); ++l) {
+        const scene::Light& light = mLights[l];
+        const Arrival arrival = arrive(light, position);
         if (arrival.irradiance == dvec3(0)) continue;
-        if (castsShadows(light))
-            arrival.irradiance *= transmittance(arrival, position, 0, kNoTriangle);
+        const dvec3 share = withShadows && castsShadows(light)
+                                ? transmittance(arrival, position, 0, kNoTriangle)
+                                : dvec3(1);
         const double cosTheta = std::clamp(-glm::dot(arrival.travel, direction), -1.0, 1.0);
-        for (std::size_t i = 0; i < perClass.size(); ++i)
-            perClass[i] +=
+        for (std::size_t i = 0; i < classes; ++i) {
+            const dvec3 scattered =
                 evaluatePhase(mPhases[i].first, mPhases[i].second, cosTheta) * arrival.irradiance;
+            sample[i] += scattered * share;
+            if (hasWholeShadows()) sample[classes + i * mLights.size() + l] = scattered;
+        }
     }
+}
+
+dvec3 Lighting::onSphere(std::uint32_t sphere, std::uint32_t phaseClass,
+                         std::span<const dvec3> sample) const {
+    const std::span<const dvec3> shares = sharesOf(sphere);
+    dvec3 sum = mAmbient;
+    for (std::size_t l = 0; l < mLights.size(); ++l)
+        sum += shares[l] * sample[classCount() + phaseClass * mLights.size() + l];
+    return sum;
+}
+
+std::span<const dvec3> Lighting::sharesOf(std::uint32_t sphere) const {
+    const std::span<dvec3> shares(&mShares[sphere * mLights.size()], mLights.size());
+    std::call_once(mHasShares[sphere], [&] {
+        const dvec3 center = mMedia.sphereCenter(sphere);
+        const double radius = mMedia.sphereRadius(sphere);
+        for (std::size_t l = 0; l < mLights.size(); ++l) {
+            shares[l] = dvec3(1);
+            if (!castsShadows(mLights[l])) continue;
+            const Arrival middle = arrive(mLights[l], center);
+            const dvec3 front = center - std::min(radius, middle.distance) * middle.travel;
+            shares[l] = transmittance(arrive(mLights[l], front), front, 0, kNoTriangle);
+        }
+    });
+    return shares;
 }
 
 template <typename Weight>

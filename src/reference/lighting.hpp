@@ -4,6 +4,8 @@
 
 #include <reference/occlusion.hpp>
 
+#include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,13 +22,27 @@ class Lighting {
     std::uint32_t classCount() const { return static_cast<std::uint32_t>(mPhases.size()); }
     std::uint32_t classOf(std::uint32_t source) const { return mClassOfSource[source]; }
 
-    /// Is the light that media scatter towards the viewer the same all along a ray?
-    bool isConstantAlongRays() const { return !mHasScattering || (!mHasPoints && !mHasShadows); }
+    /// Is the light that media scatter towards the viewer the same all along a ray (for each sphere
+    /// that is shadowed as a whole)?
+    bool isConstantAlongRays() const {
+        return !mHasScattering || (!mHasPoints && !(mHasShadows && mMedia.hasSampledMedia()));
+    }
     bool hasShadows() const { return mHasShadows; }
+    /// Are there spheres with shadows of their own?
+    bool hasWholeShadows() const { return mHasShadows && mMedia.hasWholeSpheres(); }
 
-    /// Per class: ambient radiance + sum over lights of phase * E * T, for light leaving the point
-    /// against `direction`.
-    void scatter(const dvec3& position, const dvec3& direction, std::span<dvec3> perClass) const;
+    /// Of a sample: per class the light at a place; with whole shadows also, per class and light,
+    /// that light without its shadow.
+    std::uint32_t sampleSize() const {
+        return classCount() * (hasWholeShadows() ? 1 + lightCount() : 1);
+    }
+    /// Fills a sample: per class ambient radiance + sum over lights of phase * E * T, for light
+    /// leaving the point against `direction`. Without `withShadows` T is 1.
+    void scatter(const dvec3& position, const dvec3& direction, bool withShadows,
+                 std::span<dvec3> sample) const;
+    /// The light of a sample on a sphere that is shadowed as a whole. Thread-safe.
+    dvec3 onSphere(std::uint32_t sphere, std::uint32_t phaseClass,
+                   std::span<const dvec3> sample) const;
 
     /// Ambient radiance + sum over lights of E * T * cos / pi.
     dvec3 illuminate(const SurfacePoint& point) const;
@@ -47,6 +63,9 @@ class Lighting {
         double distance = kInfinity;
     };
 
+    std::uint32_t lightCount() const { return static_cast<std::uint32_t>(mLights.size()); }
+    /// Per light T at the front of a sphere: at the point nearest to the light.
+    std::span<const dvec3> sharesOf(std::uint32_t sphere) const;
     static Arrival arrive(const scene::Light& light, const dvec3& position);
     bool castsShadows(const scene::Light& light) const;
     dvec3 transmittance(const Arrival& arrival, const dvec3& position, double tMin,
@@ -55,6 +74,7 @@ class Lighting {
     template <typename Weight>
     dvec3 sumLights(const SurfacePoint& point, const Weight& weight) const;
 
+    const MediaSet& mMedia;
     const Occlusion& mOcclusion;
     bool mWithShadows;
     bool mHasScattering = false, mHasPoints = false, mHasShadows = false;
@@ -62,6 +82,8 @@ class Lighting {
     std::vector<scene::Light> mLights;  ///< all but ambient and black ones
     std::vector<Phase> mPhases;
     std::vector<std::uint32_t> mClassOfSource;
+    mutable std::vector<dvec3> mShares;  ///< per sphere and light, once asked for
+    std::unique_ptr<std::once_flag[]> mHasShares;
 };
 
 }  // namespace brume::reference

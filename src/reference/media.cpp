@@ -31,6 +31,10 @@ MediaSet::MediaSet(const Input& input) : mMaterials(input.scene.materials) {
         mMediumSources.push_back(addSource(tintedSource(medium, dvec3(1))));
     addSpheres(input);
     addGrids(input);
+    for (const scene::Mesh& mesh : input.scene.meshes)
+        if (mMaterials[mesh.material].type == scene::MaterialType::Solid &&
+            scatters(mMaterialSources[mesh.material]))
+            mHasSampledMedia = true;
 }
 
 std::uint32_t MediaSet::addSource(const Source& source) {
@@ -58,8 +62,10 @@ void MediaSet::addSpheres(const Input& input) {
             const Source source = tintedSource(input.scene.media[sphere.medium], dvec3(tint));
             if (!isSame(source, mSources[plain])) entry->second = addSource(source);
         }
-        mSpheres.push_back(
-            {sphere.center, sphere.radius, sphere.density, entry->second, sphere.profile});
+        const bool isWhole = sphere.shadowing == scene::Shadowing::Particle;
+        if (scatters(entry->second)) (isWhole ? mHasWholeSpheres : mHasSampledMedia) = true;
+        mSpheres.push_back({sphere.center, sphere.radius, sphere.density, entry->second,
+                            sphere.profile, isWhole});
         const dvec3 radius(sphere.radius);
         boxes.push_back({sphere.center - radius, sphere.center + radius});
     }
@@ -75,6 +81,7 @@ void MediaSet::addGrids(const Input& input) {
         const volumes::VolumeGrid& grid = input.volumes[i];
         const std::uint32_t source = sourceOfMedium(input.scene.volumes[i].medium, "a volume");
         if (grid.isEmpty()) continue;
+        if (scatters(source)) mHasSampledMedia = true;
         mGrids.push_back({std::make_unique<volumes::DensityField>(grid),
                           dvec3(grid.worldFromIndex[3]), glm::inverse(dmat3(grid.worldFromIndex)),
                           source});
@@ -124,7 +131,9 @@ volumes::IndexRay MediaSet::toIndexSpace(const Grid& grid, const scene::Ray& ray
 void MediaSet::collect(const scene::Ray& ray, double tMax, std::vector<Piece>& pieces) const {
     mSphereTree.visit(SlabRay(ray.origin, ray.direction), 0, tMax, [&](std::uint32_t i) {
         Piece piece;
-        if (makePiece(mSpheres[i], ray, tMax, piece)) pieces.push_back(piece);
+        if (!makePiece(mSpheres[i], ray, tMax, piece)) return;
+        if (mSpheres[i].isWhole) piece.sphere = i;
+        pieces.push_back(piece);
     });
     for (const Grid& grid : mGrids)
         grid.field->visitRay(toIndexSpace(grid, ray), 0, tMax,
@@ -133,7 +142,8 @@ void MediaSet::collect(const scene::Ray& ray, double tMax, std::vector<Piece>& p
                                                    s.t1,
                                                    {s.c[0], s.c[1], s.c[2], s.c[3]},
                                                    grid.source,
-                                                   Piece::Kind::Cubic});
+                                                   Piece::Kind::Cubic,
+                                                   kNoSphere});
                              });
 }
 

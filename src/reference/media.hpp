@@ -25,6 +25,9 @@ struct Source {
     double g = 0;
 };
 
+/// No sphere, or one that asks for shadows at each place.
+inline constexpr std::uint32_t kNoSphere = ~0u;
+
 /// The density of one medium over [t0, t1] of a ray: a polynomial of degree 0, 3 or 4.
 struct Piece {
     enum class Kind : std::uint8_t { Constant, Smooth, Cubic };
@@ -34,6 +37,7 @@ struct Piece {
         {};  ///< value; scale, entry and exit of the chord; coefficients in (t - t0) / (t1 - t0)
     std::uint32_t source = 0;
     Kind kind = Kind::Constant;
+    std::uint32_t sphere = kNoSphere;  ///< that is shadowed as a whole
 
     /// Factored where it has zeros, so that it is precise relative to itself near the rim of a
     /// sphere.
@@ -96,6 +100,12 @@ class MediaSet {
     dvec3 opticalDepth(const scene::Ray& ray, double tMax) const;
 
     std::size_t sphereCount() const { return mSpheres.size(); }
+    dvec3 sphereCenter(std::uint32_t sphere) const { return mSpheres[sphere].center; }
+    double sphereRadius(std::uint32_t sphere) const { return mSpheres[sphere].radius; }
+    /// Does some sphere that scatters ask for shadows as a whole?
+    bool hasWholeSpheres() const { return mHasWholeSpheres; }
+    /// Does some medium that scatters ask for shadows at each place?
+    bool hasSampledMedia() const { return mHasSampledMedia; }
     /// Appends where a ray enters and leaves the shadows of the spheres (and of their mirror
     /// images).
     void collectShadowEdges(const scene::Ray& ray, const scene::Light& light,
@@ -107,6 +117,7 @@ class MediaSet {
         double radius, density;
         std::uint32_t source;
         scene::Profile profile;
+        bool isWhole;
     };
     struct Grid {
         std::unique_ptr<volumes::DensityField> field;
@@ -117,6 +128,7 @@ class MediaSet {
 
     std::uint32_t addSource(const Source& source);
     std::uint32_t sourceOfMedium(std::uint32_t medium, const char* what) const;
+    bool scatters(std::uint32_t source) const { return mSources[source].scattering != dvec3(0); }
     void addSpheres(const Input& input);
     void addGrids(const Input& input);
     static bool makePiece(const SphereShape& sphere, const scene::Ray& ray, double tMax,
@@ -131,6 +143,7 @@ class MediaSet {
     Bvh mSphereTree;
     std::vector<Grid> mGrids;
     Box3 mGridBounds;
+    bool mHasWholeSpheres = false, mHasSampledMedia = false;
 };
 
 }  // namespace brume::reference

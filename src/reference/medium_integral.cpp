@@ -44,12 +44,13 @@ void MediumIntegral::start(const scene::Ray& ray, std::span<const Piece> pieces)
     mRay = ray;
     mPieces = pieces;
     mRadiance = dvec3(0), mTransmittance = dvec3(1);
-    mSampledTo = -1, mSampleCount = 0;
+    mSampledTo = -1, mSampleCount = 0, mAsksShadows = false;
     keepLightSamples(1);
     mIsLightConstant = mLighting.isConstantAlongRays();
-    mIsUniform = mIsLightConstant &&
-                 std::all_of(pieces.begin(), pieces.end(),
-                             [&](const Piece& piece) { return piece.source == pieces[0].source; });
+    mIsUniform =
+        mIsLightConstant && std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
+            return isAlike(piece, pieces[0]);
+        });
     mWeights.clear();
     if (mIsLightConstant && !pieces.empty()) sampleLight(0, 0);
     for (const Piece& piece : pieces) {
@@ -95,9 +96,8 @@ void MediumIntegral::advanceUniform(double a, double b) {
 
 void MediumIntegral::advance(double a, double b, std::span<const std::uint32_t> open) {
     if (open.empty() || !(a < b)) return;
-    const std::uint32_t source = mPieces[open[0]].source;
     const bool hasOneSource = std::all_of(open.begin(), open.end(), [&](std::uint32_t piece) {
-        return mPieces[piece].source == source;
+        return isAlike(mPieces[piece], mPieces[open[0]]);
     });
     if (isDark()) {
         dvec3 depth(0);
@@ -118,9 +118,13 @@ void MediumIntegral::advance(double a, double b, std::span<const std::uint32_t> 
 // ---- Mixtures and varying light: quadrature ----
 
 void MediumIntegral::advancePanels(double a, double b) {
-    if (!mIsLightConstant && mSampledTo != a) sampleLight(0, a);
+    const bool hadShadows = mAsksShadows;
+    mAsksShadows = std::any_of(mOpen.begin(), mOpen.end(), [&](std::uint32_t piece) {
+        return asksShadows(mPieces[piece]);
+    });
+    if (!mIsLightConstant && (mSampledTo != a || mAsksShadows != hadShadows)) sampleLight(0, a);
     double panelCount = 1;
-    if (!mIsLightConstant && mLighting.hasShadows())
+    if (!mIsLightConstant && mAsksShadows)
         panelCount =
             std::clamp(std::ceil((b - a) / mSceneSize * kPanelsPerScene), 1.0, 2 * kPanelsPerScene);
     for (double i = 0; i < panelCount; ++i) {
@@ -132,8 +136,8 @@ void MediumIntegral::advancePanels(double a, double b) {
         refine(from, to, nodes, 0);
         if (mIsLightConstant) continue;
         // The next panel begins where this one ends.
-        const std::uint32_t classes = mLighting.classCount();
-        std::copy_n(mLightSamples.begin() + nodes[4] * classes, classes, mLightSamples.begin());
+        const std::uint32_t size = mLighting.sampleSize();
+        std::copy_n(mLightSamples.begin() + nodes[4] * size, size, mLightSamples.begin());
         keepLightSamples(1);
         mSampledTo = to;
     }
@@ -154,7 +158,7 @@ void MediumIntegral::refine(double a, double b, const Nodes& nodes, int depth) {
 }
 
 void MediumIntegral::split(double a, double b, const Nodes& nodes, int depth) {
-    const auto kept = static_cast<std::uint32_t>(mLightSamples.size() / mLighting.classCount());
+    const auto kept = static_cast<std::uint32_t>(mLightSamples.size() / mLighting.sampleSize());
     const double h = b - a, middle = a + 0.5 * h;
     const auto n1 = addLightSample(a + 0.125 * h), n3 = addLightSample(a + 0.375 * h);
     const auto n5 = addLightSample(a + 0.625 * h), n7 = addLightSample(a + 0.875 * h);
@@ -213,27 +217,41 @@ MediumIntegral::Gain MediumIntegral::integrate(const Panel& panel) const {
 
 // ---- Light along the ray ----
 
+bool MediumIntegral::isAlike(const Piece& a, const Piece& b) const {
+    return a.source == b.source && (a.sphere == b.sphere || !mLighting.hasWholeShadows());
+}
+
+bool MediumIntegral::asksShadows(const Piece& piece) const {
+    return mLighting.hasShadows() && piece.sphere == kNoSphere &&
+           mMedia.source(piece.source).scattering != dvec3(0);
+}
+
 dvec3 MediumIntegral::sourceLight(const Piece& piece, std::uint32_t lightSample) const {
     const Source& source = mMedia.source(piece.source);
-    const std::uint32_t index =
-        lightSample * mLighting.classCount() + mLighting.classOf(piece.source);
-    return source.emission + source.scattering * mLightSamples[index];
+    const std::uint32_t size = mLighting.sampleSize();
+    const std::uint32_t phaseClass = mLighting.classOf(piece.source);
+    const std::span sample = std::span(mLightSamples).subspan(lightSample * size, size);
+    if (source.scattering == dvec3(0)) return source.emission;
+    const bool isWhole = mLighting.hasWholeShadows() && piece.sphere != kNoSphere;
+    const dvec3 light = isWhole ? mLighting.onSphere(piece.sphere, phaseClass, sample)
+                                : sample[phaseClass];
+    return source.emission + source.scattering * light;
 }
 
 void MediumIntegral::keepLightSamples(std::uint32_t count) {
-    mLightSamples.resize(static_cast<std::size_t>(count) * mLighting.classCount());
+    mLightSamples.resize(static_cast<std::size_t>(count) * mLighting.sampleSize());
 }
 
 void MediumIntegral::sampleLight(std::uint32_t index, double t) {
-    const std::uint32_t classes = mLighting.classCount();
-    mLighting.scatter(mRay.origin + t * mRay.direction, mRay.direction,
-                      std::span(mLightSamples).subspan(index * classes, classes));
+    const std::uint32_t size = mLighting.sampleSize();
+    mLighting.scatter(mRay.origin + t * mRay.direction, mRay.direction, mAsksShadows,
+                      std::span(mLightSamples).subspan(index * size, size));
     ++mSampleCount;
 }
 
 std::uint32_t MediumIntegral::addLightSample(double t) {
     if (mIsLightConstant) return 0;
-    const auto index = static_cast<std::uint32_t>(mLightSamples.size() / mLighting.classCount());
+    const auto index = static_cast<std::uint32_t>(mLightSamples.size() / mLighting.sampleSize());
     keepLightSamples(index + 1);
     sampleLight(index, t);
     return index;

@@ -70,6 +70,10 @@ class MediumIntegral {
     static void setLight(Weights& weights, const dvec3& light) {
         for (int c = 0; c < 3; ++c) weights[3 + c] = light[c];
     }
+    /// Do two pieces have the same light, and the same shadows?
+    bool isAlike(const Piece& a, const Piece& b) const;
+    /// Is a piece shadowed at each place?
+    bool asksShadows(const Piece& piece) const;
     dvec3 sourceLight(const Piece& piece, std::uint32_t lightSample) const;
     std::uint32_t addLightSample(double t);
     void sampleLight(std::uint32_t index, double t);
@@ -83,10 +87,11 @@ class MediumIntegral {
     std::span<const Piece> mPieces;
     std::span<const std::uint32_t> mOpen;
     std::vector<Weights> mWeights;     ///< per piece; the light only where it is constant
-    std::vector<dvec3> mLightSamples;  ///< classCount each; sample 0 is at mSampledTo
+    std::vector<dvec3> mLightSamples;  ///< sampleSize each; sample 0 is at mSampledTo
     double mSampledTo = 0;
     int mSampleCount = 0;  ///< taken on this ray
     bool mIsUniform = false, mIsLightConstant = false;
+    bool mAsksShadows = false;  ///< the samples have shadows
     dvec3 mRadiance{0}, mTransmittance{1};
 };
 

@@ -72,7 +72,8 @@ shader::MaterialData makeMaterial(const scene::Material& material) {
     return data;
 }
 
-shader::SphereData makeSphere(const scene::MediumSphere& sphere, const dvec3& origin) {
+shader::SphereData makeSphere(const scene::MediumSphere& sphere, std::size_t index,
+                              const dvec3& origin) {
     const dvec3 center = sphere.center - origin;
     return {.center = vec3(center),
             .centerLo = roundingOf(center),
@@ -82,7 +83,10 @@ shader::SphereData makeSphere(const scene::MediumSphere& sphere, const dvec3& or
             .medium = sphere.medium,
             .id = sphere.id,
             .profile = sphere.profile == scene::Profile::Smooth ? shader::kProfileSmooth
-                                                                : shader::kProfileConstant};
+                                                                : shader::kProfileConstant,
+            .shares = sphere.shadowing == scene::Shadowing::Particle
+                          ? static_cast<std::uint32_t>(index)
+                          : shader::kNoShares};
 }
 
 dmat4 relativeFrom(const dmat4& worldFromObject, const dvec3& origin) {
@@ -159,7 +163,10 @@ void GpuScene::setView(const View& view) {
     mView = view;
 }
 
-void GpuScene::setShadows(const std::vector<VkDeviceAddress>& maps) { mShadowMaps = maps; }
+void GpuScene::setShadows(const std::vector<VkDeviceAddress>& maps, VkDeviceAddress shares) {
+    mShadowMaps = maps;
+    mLightShares = shares;
+}
 
 void GpuScene::makeFrame() {
     const scene::Scene& scene = mPrepared->scene;
@@ -224,14 +231,15 @@ void GpuScene::fillFrame() {
                    .lightCount = static_cast<std::uint32_t>(mData.lights.size()),
                    .mediumCount = static_cast<std::uint32_t>(mData.media.size()),
                    .far = static_cast<float>(mView.far),
-                   .brickValues = mBrickValues.deviceAddress()};
+                   .brickValues = mBrickValues.deviceAddress(),
+                   .lightShares = mLightShares};
 }
 
 void GpuScene::fillMoved() {
     const dvec3& origin = mView.camera.position;
     mData.spheres.clear();
     for (const scene::MediumSphere& sphere : mPrepared->spheres)
-        mData.spheres.push_back(makeSphere(sphere, origin));
+        mData.spheres.push_back(makeSphere(sphere, mData.spheres.size(), origin));
     for (std::size_t i = 0; i < mBoxCorners.size(); ++i) {
         const dvec3 corner = mBoxCorners[i] - origin;
         mData.boxes[i].corner = vec3(corner);

@@ -49,8 +49,9 @@ class GpuScene {
     /// change.
     void shuffleSpheres(gpu::Submitter& submitter, std::uint64_t seed);
 
-    /// Gives each light the address of its ShadowMap, from the next upload on; parallel to lights().
-    void setShadows(const std::vector<VkDeviceAddress>& maps);
+    /// Gives each light the address of its ShadowMap, parallel to lights(), and spheres that of
+    /// their shares of light (FrameData::lightShares), from the next upload on.
+    void setShadows(const std::vector<VkDeviceAddress>& maps, VkDeviceAddress shares);
 
     /// Without the ambient ones: in the order of the shaders' array.
     const std::vector<scene::Light>& lights() const { return mSceneLights; }
@@ -93,6 +94,7 @@ class GpuScene {
     View mView;
     std::vector<scene::Light> mSceneLights;
     std::vector<VkDeviceAddress> mShadowMaps;  // by light
+    VkDeviceAddress mLightShares = 0;
     oit::Needs mNeeds;
     ViewData mData;
     bool mIsMoved = true;  // positions relative to the camera are to be computed anew

@@ -2,6 +2,8 @@
 #include <render/needs.hpp>
 #include <shadows/store_info.hpp>
 
+#include <shaders/shadows/common/maps.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,15 +67,30 @@ bool hasOneMedium(const PreparedScene& prepared) {
     return media.size() == 1 && tints.size() == 1;
 }
 
-/// Whether light inside media or solids can be seen at all.
-bool doesMediumScatter(const scene::Scene& scene) {
-    const auto scatters = [](const dvec3& v) { return v != dvec3(0); };
-    return std::any_of(scene.media.begin(), scene.media.end(),
-                       [&](const scene::Medium& m) { return scatters(m.albedo * m.extinction); }) ||
-           std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [&](const scene::Material& m) {
-                           return m.type == scene::MaterialType::Solid && scatters(m.scattering);
-                       });
+/// How media and solids that scatter are shadowed; 0: none scatters.
+std::uint32_t findShadowing(const PreparedScene& prepared) {
+    const scene::Scene& scene = prepared.scene;
+    const auto scatters = [&](std::uint32_t medium) {
+        return scene.media[medium].albedo * scene.media[medium].extinction != dvec3(0);
+    };
+    std::uint32_t shadowing = 0;
+    const auto add = [&](std::uint32_t medium, scene::Shadowing kind) {
+        if (scatters(medium))
+            shadowing |= kind == scene::Shadowing::Particle ? shader::kShadowingWhole
+                                                            : shader::kShadowingSampled;
+    };
+    for (const scene::MediumSphere& sphere : prepared.spheres) add(sphere.medium, sphere.shadowing);
+    for (const scene::EffectInstance& effect : scene.effects)
+        if (!effect.effect.surface) add(effect.medium, effect.effect.shadowing);
+    for (const scene::Volume& volume : scene.volumes)
+        if (volume.representation != scene::VolumeRepresentation::Particles)
+            add(volume.medium, scene::Shadowing::Sample);
+    for (const scene::Mesh& mesh : scene.meshes) {
+        const scene::Material& material = scene.materials[mesh.material];
+        if (material.type == scene::MaterialType::Solid && material.scattering != dvec3(0))
+            shadowing |= shader::kShadowingSampled;
+    }
+    return shadowing;
 }
 
 float findLargestTint(const PreparedScene& prepared) {
@@ -104,16 +121,20 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     needs.media = static_cast<std::uint32_t>(scene.media.size());
     for (const scene::Medium& medium : scene.media)
         if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
-    const bool scatters = doesMediumScatter(scene);
+    const std::uint32_t shadowing = findShadowing(prepared);
+    const bool isSampled = (shadowing & shader::kShadowingSampled) != 0;
     for (const scene::Light& light : scene.lights) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
         needs.shadowStores |= shadows::storeBits(light.shadow);
-        if (light.type != scene::LightType::Directional || light.shadow != "none")
-            needs.varyingLight = scatters;
+        if (light.type != scene::LightType::Directional && shadowing != 0)
+            needs.varyingLight = true;
+        if (light.shadow != "none" && isSampled) needs.varyingLight = true;
     }
+    if (needs.shadowStores != 0) needs.shadowing = shadowing;
+    needs.wholeShadows = (needs.shadowing & shader::kShadowingWhole) != 0;
     needs.oneMedium = hasOneMedium(prepared);
-    needs.oneSource = needs.oneMedium && !needs.varyingLight;
+    needs.oneSource = needs.oneMedium && !needs.varyingLight && !needs.wholeShadows;
     needs.largestTint = findLargestTint(prepared);
     needs.orthographic = scene.camera.type == scene::CameraType::Orthographic;
     return needs;
@@ -128,7 +149,9 @@ std::string describe(const oit::Needs& needs) {
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
            line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
-           line("varyingLight", needs.varyingLight, "point or spot lights on media, or shadows") +
+           line("varyingLight", needs.varyingLight,
+                "on media: point or spot lights, or shadows at each place") +
+           line("wholeShadows", needs.wholeShadows, "spheres that are shadowed as a whole") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +

@@ -186,7 +186,7 @@ struct Renderer::Impl {
             composer.casters->recordContent(commands);
         });
         binCasters();
-        composer.scene.setShadows(composer.shadows->addresses());
+        composer.scene.setShadows(composer.shadows->addresses(), composer.shadows->sharesAddress());
         ring.beginFrame(0);
         submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
             composer.scene.recordView(commands, ring);

@@ -103,6 +103,7 @@ ShadowCasters::ShadowCasters(gpu::Device& device, const PreparedScene& prepared,
     mCasters.boxes = inputs.boxes;
     mCasters.volumes = inputs.volumes;
     mCasters.sphereCount = inputs.sphereCount;
+    mCasters.hasWholeSpheres = inputs.needs.wholeShadows;
     mCasters.boxCount = inputs.boxCount;
     mCasters.translucentBounds = translucentBounds;
     for (const scene::Medium& medium : prepared.scene.media)

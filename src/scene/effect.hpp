@@ -140,6 +140,12 @@ struct Surface {
     dvec2 spin{0};                     ///< [low, high], radians per second
 };
 
+/// Where a soft sphere that scatters asks for the shadows on it.
+enum class Shadowing {
+    Particle,  ///< once, at its front towards the light: it does not shadow itself
+    Sample     ///< at each place along the view ray
+};
+
 struct Effect {
     std::uint32_t capacity = 10000;
     double tickRate = 120;  ///< simulation steps per second
@@ -156,6 +162,7 @@ struct Effect {
     Curve<double> radiusBySpeed;         ///< m/s to a factor; no keys: 1
     Curve<double> densityBySpeed;
     bool smoothProfile = false;
+    Shadowing shadowing = Shadowing::Particle;
     /// The grids that the effect names, once loaded (volumes::loadEffectFields).
     std::map<FieldSource, std::shared_ptr<const FieldValues>> fields;
 };

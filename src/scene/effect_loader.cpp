@@ -265,6 +265,8 @@ Effect readEffect(const JsonNode& root, const EffectPlace& place) {
         readCurve(root["bySpeed"], "density", "speed", effect.densityBySpeed);
     }
     effect.smoothProfile = root.has("profile") && root["profile"].text() == "smooth";
+    if (root.has("shadowing") && root["shadowing"].text() == "sample")
+        effect.shadowing = Shadowing::Sample;
     return effect;
 }
 

@@ -203,6 +203,8 @@ class SceneReader {
         node.read("density", sphere.density);
         if (node.has("profile") && node["profile"].text() == "smooth")
             sphere.profile = Profile::Smooth;
+        if (node.has("shadowing") && node["shadowing"].text() == "particle")
+            sphere.shadowing = Shadowing::Particle;
         mScene.spheres.push_back(sphere);
     }
 

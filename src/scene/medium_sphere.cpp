@@ -11,7 +11,8 @@ std::vector<MediumSphere> makeMediumSpheres(const std::vector<Sphere>& spheres) 
                         .density = static_cast<float>(sphere.density),
                         .medium = sphere.medium,
                         .id = static_cast<std::uint32_t>(made.size()),
-                        .profile = sphere.profile});
+                        .profile = sphere.profile,
+                        .shadowing = sphere.shadowing});
     return made;
 }
 

@@ -17,6 +17,7 @@ struct MediumSphere {
     std::uint32_t id = 0;  ///< unique in the frame and stable when the order changes: breaks ties
                            ///< between equal distances
     Profile profile = Profile::Constant;
+    Shadowing shadowing = Shadowing::Sample;
 };
 
 /// The spheres of a scene file, with ids from 0 in their order.

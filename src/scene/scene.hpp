@@ -151,6 +151,7 @@ struct Sphere {
     std::uint32_t medium = 0;
     double density = 1;
     Profile profile = Profile::Constant;
+    Shadowing shadowing = Shadowing::Sample;
 };
 
 /// An effect of the scene, or a sub-emitter of the instance before it: those follow their root in

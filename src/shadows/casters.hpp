@@ -25,6 +25,7 @@ struct Casters {
     const gpu::Buffer* triangles = nullptr;  ///< ShadowTriangle[], the opaque ones first
     const gpu::Buffer* materials = nullptr;  ///< ShadowMaterial[]
     std::uint32_t sphereCount = 0;
+    bool hasWholeSpheres = false;  ///< some of them are shadowed as a whole
     std::uint32_t boxCount = 0;
     std::uint32_t opaqueTriangleCount = 0;
     std::uint32_t translucentTriangleCount = 0;

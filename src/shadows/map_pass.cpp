@@ -10,7 +10,8 @@ using frame::Access;
 gpu::ComputePipeline makeMapPipeline(gpu::Device& device, const std::string& name,
                                      std::span<const std::uint32_t> spirv,
                                      std::vector<std::uint32_t> specialization,
-                                     std::uint32_t pushConstantBytes) {
+                                     std::uint32_t pushConstantBytes,
+                                     std::vector<gpu::NumberedConstant> constants) {
     return {device,
             {.name = name,
              .spirv = spirv,
@@ -18,7 +19,8 @@ gpu::ComputePipeline makeMapPipeline(gpu::Device& device, const std::string& nam
                           {shader::kBindingLights, gpu::BindingType::StorageBuffer},
                           {shader::kBindingMedia, gpu::BindingType::StorageBuffer}},
              .pushConstantBytes = pushConstantBytes,
-             .specialization = std::move(specialization)}};
+             .specialization = std::move(specialization),
+             .constants = std::move(constants)}};
 }
 
 void bindCasters(gpu::Commands& commands, const Casters& casters) {

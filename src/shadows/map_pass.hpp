@@ -10,7 +10,8 @@ namespace brume::shadows {
 gpu::ComputePipeline makeMapPipeline(gpu::Device& device, const std::string& name,
                                      std::span<const std::uint32_t> spirv,
                                      std::vector<std::uint32_t> specialization = {},
-                                     std::uint32_t pushConstantBytes = sizeof(shader::ShadowPush));
+                                     std::uint32_t pushConstantBytes = sizeof(shader::ShadowPush),
+                                     std::vector<gpu::NumberedConstant> constants = {});
 
 /// Binds FrameData, lights and media.
 void bindCasters(gpu::Commands& commands, const Casters& casters);

@@ -78,8 +78,10 @@ std::span<const scene::SettingInfo> listMapSettings() {
 Shadows::Shadows(gpu::Device& device, const Casters& casters, std::span<const scene::Light> lights,
                  const scene::Settings& overrides)
     : mDevice(&device), mCasters(casters) {
+    std::uint32_t stores = 0;
     for (const scene::Light& light : lights) {
         LightMaps& maps = mLights.emplace_back();
+        stores |= storeBits(light.shadow);
         if (light.shadow == "none") continue;
         scene::Settings settings = light.shadowSettings;
         for (const auto& [key, value] : overrides) settings[key] = value;
@@ -94,6 +96,8 @@ Shadows::Shadows(gpu::Device& device, const Casters& casters, std::span<const sc
             maps.opaque = makeMap(light, "opaque", shared);
         }
     }
+    if (casters.hasWholeSpheres && stores != 0)
+        mShares.emplace(device, casters, static_cast<std::uint32_t>(lights.size()), stores);
 }
 
 std::unique_ptr<Shadows::Map> Shadows::makeMap(const scene::Light& light, const std::string& store,
@@ -226,14 +230,19 @@ void Shadows::declare(frame::FrameBuilder& frame, frame::BufferRef spheres) {
                                         .spheres = spheres});
             map->isBuilt = isAny = true;
         }
-    if (!isAny) return;
-    // Shaders reach the maps by address, from any pass that lights something: writers are the
+    // Shaders reach maps and shares by address, from any pass that lights something: writers are the
     // passes above, readers all that follow.
-    frame.addPass("shadow.finish").record([](gpu::Commands& commands, const frame::PassResources&) {
-        commands.memoryBarrier(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                               VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                               VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT);
-    });
+    const auto finish = [&](const char* name) {
+        frame.addPass(name).record([](gpu::Commands& commands, const frame::PassResources&) {
+            commands.memoryBarrier(
+                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT);
+        });
+    };
+    if (isAny) finish("shadow.finish");
+    if (!mShares) return;
+    mShares->declare(frame, spheres);
+    finish("shadow.finish_spheres");
 }
 
 std::vector<VkDeviceAddress> Shadows::addresses() const {
@@ -251,6 +260,7 @@ std::map<std::string, std::uint64_t> Shadows::bytes() const {
             kinds["shadows"] += map->store->bytes() + map->buffer.bytes();
             kinds["shadowBins"] += map->bins->bytes();
         }
+    if (mShares) kinds["shadowShares"] = mShares->bytes();
     return kinds;
 }
 

@@ -7,10 +7,12 @@
 #include <scene/scene.hpp>
 #include <shadows/light_map.hpp>
 #include <shadows/shadow_store.hpp>
+#include <shadows/sphere_shares.hpp>
 
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,11 +55,13 @@ class Shadows {
     /// Kept maps are built anew by the next declare().
     void invalidate();
 
-    /// Passes "shadow.<store>.<stage>" of all maps; what is declared after them may light things.
+    /// Passes "shadow.<store>.<stage>" of all maps and "shadow.spheres"; what is declared after them may light things.
     void declare(frame::FrameBuilder& frame, frame::BufferRef spheres);
 
     /// Per light the address that its LightData takes; 0: no shadow.
     std::vector<VkDeviceAddress> addresses() const;
+    /// What FrameData::lightShares takes; 0: no sphere is shadowed as a whole.
+    VkDeviceAddress sharesAddress() const { return mShares ? mShares->address() : 0; }
     /// Device memory by kind; empty where no light has a shadow.
     std::map<std::string, std::uint64_t> bytes() const;
     Footprint footprint(std::uint32_t light) const;
@@ -86,6 +90,7 @@ class Shadows {
     gpu::Device* mDevice;
     Casters mCasters;
     std::vector<LightMaps> mLights;
+    std::optional<SphereShares> mShares;
 };
 
 }  // namespace brume::shadows

@@ -118,6 +118,7 @@ class Converter {
         sphere.medium = mOptions.medium;
         sphere.id = mOptions.firstId + static_cast<std::uint32_t>(mSpheres.size());
         sphere.profile = scene::Profile::Smooth;
+        sphere.shadowing = scene::Shadowing::Particle;
         mSpheres.push_back(sphere);
     }
 

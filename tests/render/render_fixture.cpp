@@ -142,7 +142,7 @@ Difference RenderTest::measure(const render::PreparedScene& scene) {
     options.triangleHashes = true;
     const render::Result actual = render(scene, options);
     const reference::Result expected =
-        reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = false});
+        reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = mWithShadows});
     EXPECT_EQ(actual.counters.at("dropped"), 0u);
     EXPECT_EQ(actual.counters.at("exhausted"), 0u);
 

@@ -90,6 +90,7 @@ class RenderTest : public GpuTest {
                      double maxError = 1e-5, double excludedShare = 0);
 
     render::Options mMethod{.method = "linked_list"};  ///< what measure() and expectExact() test
+    bool mWithShadows = false;  ///< in the reference
 };
 
 }  // namespace brume::test

@@ -25,11 +25,13 @@ TEST(Effect_AllKeys, DocumentedExample_IsReadInFull) {
       "modules": [ { "type": "gravity", "acceleration": [0,-9.81,0] },
                    { "type": "drag", "rate": 0.5, "wind": [1,0,0], "mode": "exact", "on": true } ],
       "overLife": { "radius": [[0,0.05],[1,0.3]], "density": [[0,1],[1,0]],
-                    "tint": [[0,[1,1,1]],[1,[0.5,0.25,0]]] }, "profile": "smooth" })");
+                    "tint": [[0,[1,1,1]],[1,[0.5,0.25,0]]] }, "profile": "smooth",
+        "shadowing": "sample" })");
     EXPECT_EQ(effect.capacity, 100000u);
     EXPECT_EQ(effect.tickRate, 60);
     EXPECT_EQ(effect.medium, "smoke");
     EXPECT_TRUE(effect.smoothProfile);
+    EXPECT_EQ(effect.shadowing, Shadowing::Sample);
     ASSERT_EQ(effect.emitters.size(), 1u);
     const Emitter& e = effect.emitters[0];
     EXPECT_EQ(e.rate, 2000);
@@ -154,6 +156,7 @@ TEST(Effect_Defaults, ShortestFile_HasThem) {
     EXPECT_EQ(effect.capacity, 10000u);
     EXPECT_EQ(effect.tickRate, 120);
     EXPECT_FALSE(effect.smoothProfile);
+    EXPECT_EQ(effect.shadowing, Shadowing::Particle);
     EXPECT_EQ(effect.emitters[0].lifetime, dvec2(3));
     EXPECT_EQ(effect.emitters[0].duration, kInfinity);
     EXPECT_EQ(effect.radius.keys.size(), 1u);

@@ -14,7 +14,7 @@ namespace brume::test {
 // A pane, a lit puff and rising sparks; comments as people write them.
 inline constexpr const char* kScene = R"({ "version": 1,
   "camera": { "position": [0, 1, 4], "target": [0, 0.6, 0], "verticalFov": 40 },
-  "image": { "width": 48, "height": 32 },
+  "image": { "width": 24, "height": 16 },
   "background": { "radiance": [0.1, 0.2, 0.3] },
   "lights": [ { "type": "ambient", "radiance": [0.4, 0.4, 0.4] },
               { "type": "directional", "direction": [0.6, -0.7, -0.39], "irradiance": [3, 3, 3], "shadow": "total",

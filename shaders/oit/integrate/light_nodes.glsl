@@ -6,13 +6,14 @@
 #include "quadrature.glsl"
 
 struct LightNodes {
-    vec3 irradiance[kNodeCount];
-    float cosTheta[kNodeCount];  // between its travel and the way to the eye
+    vec3 irradiance[kNodeCount];  // with nothing in between
+    vec3 share[kNodeCount];       // that shadows leave at each node
+    float cosTheta[kNodeCount];   // between its travel and the way to the eye
 };
 
 // Of one light and step, at most.
 const uint kShadowLookups =
-    kShadowStores == 0u ? 0u : (kShadowStores & kStoreExact) != 0u ? kNodeCount : 2u;
+    !kSampledShadows ? 0u : (kShadowStores & kStoreExact) != 0u ? kNodeCount : 2u;
 
 // Share of light `index` at the nodes. Stores that are right to 1e-3 anyway are asked twice, at
 // Gauss's points (inside the step: at its ends the light may jump), and taken as linear: that is
@@ -41,20 +42,20 @@ void shadowNodes(uint index, vec3 begin, vec3 alongStep, out vec3 share[kNodeCou
 struct LitStep {
     vec3 begin, rayDirection;
     float distance;
+    bool isSampled;  // shadows are asked for along it
 };
 
 // `index`: of the light. Where `isVarying` is false, no light varies along the ray.
 LightNodes makeLightNodes(LightData light, uint index, LitStep lit, const bool isVarying) {
     LightNodes nodes;
-    vec3 share[kNodeCount];
-    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) share[k] = vec3(1);
-    if (kShadowStores != 0u && light.shadow != 0ul)
-        shadowNodes(index, lit.begin, lit.rayDirection * lit.distance, share);
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) nodes.share[k] = vec3(1);
+    if (kSampledShadows && lit.isSampled && light.shadow != 0ul)
+        shadowNodes(index, lit.begin, lit.rayDirection * lit.distance, nodes.share);
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         uint source = isVarying ? k : 0u;
         vec3 travel;
         vec3 position = lit.begin + lit.rayDirection * (lit.distance * kNodes[source]);
-        nodes.irradiance[k] = freeIrradiance(light, position, travel) * share[source];
+        nodes.irradiance[k] = freeIrradiance(light, position, travel);
         nodes.cosTheta[k] = -dot(travel, lit.rayDirection);
     }
     return nodes;

@@ -43,13 +43,15 @@ float limitStepByLight(LightData light, vec3 origin, vec3 rayDirection, float pl
     return max(own, slack);
 }
 
-float limitStepByLights(vec3 origin, vec3 rayDirection, float place) {
+// `isSampled`: shadows are asked for along the ray.
+float limitStepByLights(vec3 origin, vec3 rayDirection, float place, bool isSampled) {
     float limit = kNoCrossing;
-    for (uint i = 0u; i < frame.lightCount; ++i)
-        limit = min(limit, min(lights[i].type != kLightDirectional
-                                   ? limitStepByLight(lights[i], origin, rayDirection, place)
-                                   : kNoCrossing,
-                               shadowStep(i, origin + rayDirection * place, rayDirection)));
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        if (lights[i].type != kLightDirectional)
+            limit = min(limit, limitStepByLight(lights[i], origin, rayDirection, place));
+        if (isSampled)
+            limit = min(limit, shadowStep(i, origin + rayDirection * place, rayDirection));
+    }
     return limit;
 }
 

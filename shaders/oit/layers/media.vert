@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push { LayerPush push; };
 layout(location = 0) flat out vec4 centerRadius;
 layout(location = 1) flat out vec4 tintDensity;
 layout(location = 2) flat out uvec4 kind;  // medium, profile, 1 + index of the box (0: a sphere), id
+layout(location = 3) flat out uint shares;
 
 void main() {
     uint slot = gl_VertexIndex / 6;
@@ -24,11 +25,13 @@ void main() {
     Bounds bounds = kNowhere;
     centerRadius = tintDensity = vec4(0);
     kind = uvec4(0);
+    shares = kNoShares;
     if (index < frame.sphereCount) {
         SphereData sphere = spheres[index];
         centerRadius = vec4(sphere.center, sphere.radius);
         tintDensity = vec4(sphere.tint, sphere.density);
         kind = uvec4(sphere.medium, sphere.profile, 0u, sphere.id);
+        shares = sphere.shares;
         if (sphere.radius > 0.0 && sphere.density > 0.0)
             bounds = sphereBounds(sphere.center, sphere.radius);
     } else {

@@ -12,6 +12,7 @@ layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData v
 layout(location = 0) flat in vec4 centerRadius;
 layout(location = 1) flat in vec4 tintDensity;
 layout(location = 2) flat in uvec4 kind;
+layout(location = 3) flat in uint shares;
 
 const vec3 kNodes = vec3(0.1127016653792583, 0.5, 0.8872983346207417);
 const vec3 kWeights = vec3(5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0);
@@ -35,7 +36,7 @@ float sphereDensityLength(RealRay ray, vec2 t) {
     float length = t.y - t.x;
     if (!kVarying) return length * tintDensity.w;
     SphereData sphere = SphereData(centerRadius.xyz, vec3(0), centerRadius.w, tintDensity.xyz,
-                                   tintDensity.w, kind.x, 0u, kind.y);
+                                   tintDensity.w, kind.x, 0u, kind.y, shares);
     SphereDensity density = makeSphereDensity(ray, sphere, t.x);
     float sum = 0.0;
     for (int k = 0; k < 3; ++k) sum += kWeights[k] * sphereDensity(density, length * kNodes[k]);
@@ -69,7 +70,7 @@ bool findMediumLayer(out Layer layer) {
     MediumData medium = media[kind.x];
     vec3 tint = kBoxes && kind.z != 0u ? vec3(1) : tintDensity.xyz;
     vec3 middle = ray.origin + ray.direction * (0.5 * (layer.t.x + layer.t.y));
-    vec3 light = scatteredRadiance(medium, middle, ray.direction);
+    vec3 light = scatteredRadiance(medium, shares, middle, ray.direction);
     vec3 source =
         tint * (medium.extinction * medium.albedo * light + medium.emission) * densityLength;
     setMedium(layer, medium.extinction * densityLength, source);

@@ -19,7 +19,7 @@ bool findSolidLayer(out Layer layer) {
     Ray ray = makeRay(layerPixel());
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
     vec3 middle = ray.origin + ray.direction * (0.5 * (layer.t.x + layer.t.y));
-    vec3 light = scatteredRadiance(isotropic, middle, ray.direction);
+    vec3 light = scatteredRadiance(isotropic, kNoShares, middle, ray.direction);
     // Sums of differences may fall a rounding below zero.
     setMedium(layer, max(depth.rgb, vec3(0)), max(texelFetch(solidSource, texel, 0).rgb, vec3(0)) * light);
     layer.primitive = layer.object = 0x50be1d5u;

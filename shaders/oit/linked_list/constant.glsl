@@ -11,22 +11,25 @@ struct RayMedium {
     vec3 source;      // radiance per metre
 };
 
-RayMedium makeRayMedium(uint index) {
+RayMedium makeRayMedium(uint index, uint shares) {
     MediumData medium = media[index];
-    vec3 light = scatteredRadiance(medium, vec3(0), rayDirection);
+    vec3 light = scatteredRadiance(medium, shares, vec3(0), rayDirection);
     return RayMedium(medium.extinction,
                      medium.extinction * medium.albedo * light + medium.emission);
 }
 
-// The first media are worked out once per ray; scenes with more work theirs out at every event.
+// The first media are worked out once per ray; scenes with more, or with spheres that have shadows
+// of their own, work theirs out at every event.
+const bool kKeepsMedia = kMediumCount > 0u && !kWholeShadows;
 RayMedium keptMedia[kKeptMedia];
 
 void keepMedia() {
-    for (uint i = 0u; i < kMediumCount; ++i) keptMedia[i] = makeRayMedium(i);
+    if (!kKeepsMedia) return;
+    for (uint i = 0u; i < kMediumCount; ++i) keptMedia[i] = makeRayMedium(i, kNoShares);
 }
 
-RayMedium findRayMedium(uint index) {
-    if (kMediumCount == 0u) return makeRayMedium(index);
+RayMedium findRayMedium(uint index, uint shares) {
+    if (!kKeepsMedia) return makeRayMedium(index, shares);
     RayMedium medium = keptMedia[0];
     for (uint i = 1u; i < kMediumCount; ++i)
         if (index == i) medium = keptMedia[i];
@@ -36,7 +39,7 @@ RayMedium findRayMedium(uint index) {
 // Extinction and source of the interval that an entry stands for.
 RayMedium loadRayMedium(uvec2 entry) {
     uint index = entry.y & kIndexMask;
-    uint mediumIndex;
+    uint mediumIndex, shares = kNoShares;
     float density;
     vec3 tint = vec3(1);
     if (kBoxes && (entry.y >> kKindShift) == kKindBox) {
@@ -46,9 +49,10 @@ RayMedium loadRayMedium(uvec2 entry) {
         mediumIndex = spheres[index].medium;
         density = spheres[index].density;
         tint = spheres[index].tint;
+        shares = spheres[index].shares;
     }
-    iterations += kMediumCount > 0u ? 0u : frame.lightCount;
-    RayMedium medium = findRayMedium(mediumIndex);
+    iterations += kKeepsMedia ? 0u : frame.lightCount;
+    RayMedium medium = findRayMedium(mediumIndex, shares);
     return RayMedium(medium.extinction * density, tint * density * medium.source);
 }
 
@@ -94,7 +98,7 @@ void crossTo(Real event, vec3 solidLight) {
 void walkConstant(Real limit) {
     keepMedia();
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
-    vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, vec3(0), rayDirection) : vec3(0);
+    vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, kNoShares, vec3(0), rayDirection) : vec3(0);
     uvec2 enter = mediumEntry(), surface = surfaceEntry();
     uvec2 leave = state.open < state.medium ? loadEntry(state.open) : kNoEntry;
     while (iterations <= kIterationsPerRound) {

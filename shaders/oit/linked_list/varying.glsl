@@ -83,10 +83,12 @@ struct OpenSet {
     uint leavingIndex;  // in the list
     float plane;        // offset of the next voxel plane
     float phase;        // smallest key
+    bool isSampled;     // something that scatters asks for shadows at each place
 };
 
 OpenSet scanOpen() {
-    OpenSet set = OpenSet(Real(kFar), 0u, kFar, kNoPhase);
+    bool isSolid = kSurfaces && state.solids.sourceHi != vec3(0);
+    OpenSet set = OpenSet(Real(kFar), 0u, kFar, kNoPhase, isSolid);
     uvec2 first = kNoEntry;
     for (uint i = 0u; i < state.open; ++i) {
         uvec2 entry = loadEntry(i);
@@ -95,7 +97,10 @@ OpenSet scanOpen() {
         bool isBox = kBoxes && i < state.openBoxes;
         uint index = entry.y & kIndexMask;
         uint medium = isBox ? volumes[boxes[index].volume].medium : spheres[index].medium;
-        set.phase = min(set.phase, findMatter(medium).phase);
+        float phase = findMatter(medium).phase;
+        set.phase = min(set.phase, phase);
+        bool isWhole = kWholeShadows && !isBox && spheres[index].shares != kNoShares;
+        set.isSampled = set.isSampled || (phase < kNoPhase && !isWhole);
     }
     if (kBoxes)
         for (uint i = 0u; i < state.openBoxes; ++i) {
@@ -111,25 +116,28 @@ OpenSet scanOpen() {
 // A step from an offset on.
 struct Step {
     float from, distance;
+    bool isSampled;  // as in OpenSet
 };
 
 struct Gathered {
     vec3 extinction[kNodeCount];
     vec3 emission[kNodeCount];    // radiance per metre
     vec3 scattering[kNodeCount];  // of the media of one phase function, 1/m
+    vec3 sampled[kNodeCount];     // of those among them that are shadowed at each place
     float share;                  // as in Nodes
     float plane;                  // offset of the next voxel plane behind the step
     float nextPhase;              // the next larger key
 };
 
 void addMatter(inout Gathered sum, float phase, Matter matter, float densities[kNodeCount],
-               vec3 tint) {
+               vec3 tint, bool isWhole) {
     vec3 emission = tint * matter.emission;
     vec3 scattering = matter.phase == phase ? tint * matter.scattering : vec3(0);
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         sum.extinction[k] += densities[k] * matter.extinction;
         sum.emission[k] += densities[k] * emission;
         sum.scattering[k] += densities[k] * scattering;
+        if (kWholeShadows) sum.sampled[k] += isWhole ? vec3(0) : densities[k] * scattering;
     }
     sum.nextPhase = matter.phase > phase ? min(matter.phase, sum.nextPhase) : sum.nextPhase;
 }
@@ -141,7 +149,7 @@ void gatherBox(inout Gathered sum, float phase, BoxData box, Step step) {
     float densities[kNodeCount];
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
         densities[k] = boxDensity(density, step.from + step.distance * kNodes[k]);
-    addMatter(sum, phase, findMatter(volume.medium), densities, vec3(1));
+    addMatter(sum, phase, findMatter(volume.medium), densities, vec3(1), false);
     sum.plane = min(sum.plane, nextPlane(box, local, step.from + step.distance));
 }
 
@@ -150,7 +158,8 @@ void gatherSphere(inout Gathered sum, float phase, SphereData sphere, Step step)
     float densities[kNodeCount];
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
         densities[k] = sphereDensity(density, step.from + step.distance * kNodes[k]);
-    addMatter(sum, phase, findMatter(sphere.medium), densities, sphere.tint);
+    addMatter(sum, phase, findMatter(sphere.medium), densities, sphere.tint,
+              sphere.shares != kNoShares);
     float chord = max(density.behind + density.ahead, 1e-30);
     sum.share = max(sum.share, density.smoothScale > 0.0 ? step.distance / chord : 0.0);
 }
@@ -159,7 +168,7 @@ void gatherSphere(inout Gathered sum, float phase, SphereData sphere, Step step)
 Gathered gatherOpen(float phase, Step step) {
     Gathered sum;
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
-        sum.extinction[k] = sum.emission[k] = sum.scattering[k] = vec3(0);
+        sum.extinction[k] = sum.emission[k] = sum.scattering[k] = sum.sampled[k] = vec3(0);
     sum.share = 0.0;
     sum.plane = kFar;
     sum.nextPhase = kNoPhase;
@@ -172,30 +181,59 @@ Gathered gatherOpen(float phase, Step step) {
     return sum;
 }
 
+// Scattering of the open spheres of one phase function that are shadowed as a whole, 1/m, times
+// their share of light `index`.
+struct WholeScattering {
+    vec3 at[kNodeCount];
+};
+
+WholeScattering gatherWhole(uint index, float phase, Step step) {
+    WholeScattering sum;
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) sum.at[k] = vec3(0);
+    if (!kWholeShadows) return sum;
+    for (uint i = kBoxes ? state.openBoxes : 0u; i < state.open; ++i) {
+        SphereData sphere = spheres[loadEntry(i).y & kIndexMask];
+        Matter matter = findMatter(sphere.medium);
+        bool isCounted = sphere.shares != kNoShares && matter.phase == phase;
+        vec3 share = isCounted ? wholeShare(sphere.shares, index) : vec3(0);
+        vec3 scattering = share * sphere.tint * matter.scattering;
+        SphereDensity density = makeSphereDensity(ray, sphere, position);
+        [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
+            sum.at[k] +=
+                scattering * sphereDensity(density, step.from + step.distance * kNodes[k]);
+    }
+    iterations += state.open;
+    return sum;
+}
+
 // What media of one phase function, and solids, which do so evenly, scatter towards the eye.
 struct Scatterers {
-    vec3 media[kNodeCount];  // 1/m
+    vec3 media[kNodeCount];    // 1/m
+    vec3 sampled[kNodeCount];  // as in Gathered
     vec3 solids;
     float phase;
 };
 
-void addLight(inout Nodes nodes, Scatterers scatterers, LightNodes light) {
-    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
-        nodes.source[k] +=
-            light.irradiance[k] *
-            (scatterers.media[k] * phaseOfKey(scatterers.phase, light.cosTheta[k]) +
-             scatterers.solids * phaseIsotropic());
+void addLight(inout Nodes nodes, Scatterers scatterers, LightNodes light, WholeScattering whole) {
+    [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
+        vec3 scattering = kWholeShadows ? scatterers.sampled[k] * light.share[k] + whole.at[k]
+                                        : scatterers.media[k] * light.share[k];
+        nodes.source[k] += light.irradiance[k] *
+                           (scattering * phaseOfKey(scatterers.phase, light.cosTheta[k]) +
+                            scatterers.solids * light.share[k] * phaseIsotropic());
+    }
 }
 
 void addLights(inout Nodes nodes, Scatterers scatterers, Step step) {
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k)
         nodes.source[k] += (scatterers.media[k] + scatterers.solids) * frame.ambient;
     LitStep lit = LitStep(vec3(ray.origin) + rayDirection * min(float(position) + step.from, 1e6),
-                          rayDirection, min(step.distance, 1e6));
+                          rayDirection, min(step.distance, 1e6), step.isSampled);
     bool isLit = scatterers.phase < kNoPhase || scatterers.solids != vec3(0);
     uint lightCount = isLit ? frame.lightCount : 0u;
     for (uint i = 0u; i < lightCount; ++i)
-        addLight(nodes, scatterers, makeLightNodes(lights[i], i, lit, kVaryingLight));
+        addLight(nodes, scatterers, makeLightNodes(lights[i], i, lit, kVaryingLight),
+                 gatherWhole(i, scatterers.phase, step));
     iterations += (1u + kShadowLookups) * lightCount + shadowIterations;
     shadowIterations = 0u;
 }
@@ -220,7 +258,7 @@ Nodes evaluateNodes(float phase, Step step, out float plane) {
         }
         nodes.share = sum.share;
         plane = sum.plane;
-        addLights(nodes, Scatterers(sum.scattering, first * solids, phase), step);
+        addLights(nodes, Scatterers(sum.scattering, sum.sampled, first * solids, phase), step);
         if (sum.nextPhase >= kNoPhase) break;
         phase = sum.nextPhase;
     }
@@ -232,6 +270,7 @@ void walkTo(OpenSet set, float last) {
     while (iterations <= kIterationsPerRound) {
         ++iterations;
         Step step;
+        step.isSampled = set.isSampled;
         step.from = state.offset;
         float target = max(min(min(set.plane, last), step.from + state.stepLimit), step.from);
         step.distance = target - step.from;
@@ -251,7 +290,8 @@ float limitByLights(OpenSet set) {
     bool isLit = set.phase < kNoPhase || (kSurfaces && state.solids.sourceHi != vec3(0));
     if (!kVaryingLight || !isLit) return kFar;
     iterations += frame.lightCount;
-    return limitStepByLights(vec3(ray.origin), rayDirection, float(position) + state.offset);
+    return limitStepByLights(vec3(ray.origin), rayDirection, float(position) + state.offset,
+                             set.isSampled);
 }
 
 // From where the state says to the end of the ray, or of the round.

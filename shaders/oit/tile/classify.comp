@@ -4,12 +4,14 @@
 // in any order, because what they send is one and the same function of their summed depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../common/shadowing.glsl"
 #include "column.glsl"
 
 // The media last met that share a source, and where they and those before them end.
 struct Run {
     uint medium;
     vec3 tint;
+    uint shares;
     float reach;
     float reachBefore;
 };
@@ -21,11 +23,13 @@ bool needsLists = false;
 void meetSphere(uint row, SphereData sphere) {
     Chord chord = findChord(rays[row], limits[row], sphere);
     if (chord.span <= 0.0) return;
-    bool isSame = runs[row].medium == sphere.medium && runs[row].tint == sphere.tint;
+    bool isSame = runs[row].medium == sphere.medium && runs[row].tint == sphere.tint &&
+                  (!kWholeShadows || runs[row].shares == sphere.shares);
     if (!isSame) {
         runs[row].reachBefore = max(runs[row].reachBefore, runs[row].reach);
         runs[row].medium = sphere.medium;
         runs[row].tint = sphere.tint;
+        runs[row].shares = sphere.shares;
     }
     const float kMargin = 1.000001;  // rounding must not hide an overlap
     isMixed = isMixed || chord.enter < runs[row].reachBefore * kMargin;
@@ -35,7 +39,7 @@ void meetSphere(uint row, SphereData sphere) {
 void main() {
     uint tile;
     if (!beginColumn(tile)) return;
-    [[unroll]] for (uint row = 0u; row < kRows; ++row) runs[row] = Run(~0u, vec3(0), 0.0, 0.0);
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) runs[row] = Run(~0u, vec3(0), 0u, 0.0, 0.0);
     uint k = UintArray(push.sphereOffsets).at[tile];
     uint last = UintArray(push.sphereOffsets).at[tile + 1u];
     bool isEmpty = k == last;

@@ -10,7 +10,10 @@
 layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingTileResult, rgba32f) writeonly uniform image2D result;
 
-vec3 sources[kRows * kTileMedia];  // radiance per metre of a medium of density 1
+// Radiance per metre of a medium of density 1, without shadows, and of a sphere that is shadowed as
+// a whole.
+vec3 sources[kRows * kTileMedia];
+vec3 sphereSources[kRows];
 // One common source: the sum of density times length, with what rounding has taken from it. Else
 // the transmittance so far, likewise, and the radiance.
 vec3 sums[kRows];
@@ -29,7 +32,7 @@ void beginRows() {
     // Rows inside: loops around loops are not unrolled, and arrays would leave the registers.
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec3 travel;
-        vec3 irradiance = lightIrradiance(lights[i], i, vec3(0), travel);
+        vec3 irradiance = freeIrradiance(lights[i], vec3(0), travel);
         [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
             MediumData medium = loadMedium(m);
             [[unroll]] for (uint row = 0u; row < kRows; ++row) sources[row * kTileMedia + m] +=
@@ -44,6 +47,21 @@ void beginRows() {
     }
 }
 
+void findSphereSources(SphereData sphere) {
+    MediumData medium = media[sphere.medium];
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) sphereSources[row] = frame.ambient;
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec3 travel;
+        vec3 irradiance = freeIrradiance(lights[i], vec3(0), travel);
+        irradiance *= mediumShare(sphere.shares, i, vec3(0));
+        [[unroll]] for (uint row = 0u; row < kRows; ++row) sphereSources[row] +=
+            irradiance *
+            phaseFunction(medium.phase, medium.g, -dot(travel, vec3(rays[row].direction)));
+    }
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) sphereSources[row] =
+        medium.extinction * medium.albedo * sphereSources[row] + medium.emission;
+}
+
 void crossSphere(uint row, SphereData sphere, vec3 extinction) {
     float length = densityLength(sphere, findChord(rays[row], limits[row], sphere));
     if (kOneSource) {
@@ -56,6 +74,7 @@ void crossSphere(uint row, SphereData sphere, vec3 extinction) {
     vec3 source = sources[row * kTileMedia];
     [[unroll]] for (uint m = 1u; m < kMediumCount; ++m) if (sphere.medium == m) source =
         sources[row * kTileMedia + m];
+    if (kWholeShadows) source = sphereSources[row];
     radiances[row] += weight * sphere.tint * source;
     precise vec3 next = -weight * extinction - perChannel(lost[row]);
     precise vec3 sum = before + next;
@@ -123,6 +142,7 @@ void main() {
         SphereData sphere = spheres[UintArray(push.spherePairs).at[k]];
         ++k;
         vec3 extinction = kOneSource ? first : perChannel(media[sphere.medium].extinction);
+        if (kWholeShadows) findSphereSources(sphere);
         [[unroll]] for (uint row = 0u; row < kRows; ++row) crossSphere(row, sphere, extinction);
         worst = findWorst();
         if (kOneSource ? worst > enough : worst < epsilon) break;

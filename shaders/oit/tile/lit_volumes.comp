@@ -57,7 +57,7 @@ void crossBox(BoxData box, float limit) {
     while (at < span && steps < kMostSteps) {
         steps += 1u + kNodeCount * (1u + frame.lightCount);
         float target = min(min(nextPlane(box, local, at), span), at + stepLimit);
-        target = min(target, at + limitStepByLights(vec3(ray.origin), rayDirection, begin + at));
+        target = min(target, at + limitStepByLights(vec3(ray.origin), rayDirection, begin + at, true));
         float distance = target - at;
         if (distance <= 0.0) break;  // rounding: nothing is left
         float error = crossVarying(path, evaluateNodes(box, local, begin, at, distance), distance);

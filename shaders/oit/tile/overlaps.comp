@@ -20,17 +20,20 @@ Real begins[kOpenIntervals];
 Real ends[kOpenIntervals];
 vec3 extinctions[kOpenIntervals];  // 1/m
 vec3 sources[kOpenIntervals];      // radiance per metre
-vec3 mediumSources[kTileMedia];    // of density 1
+vec3 mediumSources[kTileMedia];    // of density 1, without shadows
+vec3 rayDirection;
 Path path;
 Real position = Real(0);
 uint steps = 0u;
 
-void findMediumSources(vec3 rayDirection) {
-    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m) {
-        MediumData medium = media[m];
-        vec3 light = scatteredRadiance(medium, vec3(0), rayDirection);
-        mediumSources[m] = medium.extinction * medium.albedo * light + medium.emission;
-    }
+vec3 findMediumSource(MediumData medium, uint shares) {
+    vec3 light = scatteredRadiance(medium, shares, vec3(0), rayDirection);
+    return medium.extinction * medium.albedo * light + medium.emission;
+}
+
+void findMediumSources() {
+    [[unroll]] for (uint m = 0u; m < kMediumCount; ++m)
+        mediumSources[m] = findMediumSource(media[m], kNoShares);
 }
 
 float findRest() { return largest(path.surfaces * path.decay); }
@@ -61,6 +64,7 @@ bool insertInterval(Real begin, Real end, SphereData sphere) {
     vec3 source = mediumSources[0];
     [[unroll]] for (uint m = 1u; m < kMediumCount; ++m) source =
         sphere.medium == m ? mediumSources[m] : source;
+    if (kWholeShadows) source = findMediumSource(media[sphere.medium], sphere.shares);
     source *= sphere.tint * sphere.density;
     bool isPlaced = false;
     [[unroll]] for (uint i = 0u; i < kOpenIntervals; ++i) {
@@ -92,7 +96,8 @@ void main() {
     if (!beginPixel(tile, pixel)) return;
     RealRay ray = makeTileRay(pixel);
     Real limit = min(Real(texelFetch(opaqueT, ivec2(pixel), 0).x), kNowhere);
-    findMediumSources(vec3(ray.direction));
+    rayDirection = vec3(ray.direction);
+    findMediumSources();
     path = beginPath();
     [[unroll]] for (uint i = 0u; i < kOpenIntervals; ++i) begins[i] = ends[i] = Real(0);
 

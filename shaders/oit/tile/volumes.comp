@@ -63,7 +63,7 @@ void main() {
         addLength(sum, lost, densityLength(data, findChord(ray, limit, data)));
         ++sphere;
     }
-    vec3 light = scatteredRadiance(medium, vec3(0), vec3(ray.direction));
+    vec3 light = scatteredRadiance(medium, kNoShares, vec3(0), vec3(ray.direction));
     vec3 source = medium.extinction * medium.albedo * light + medium.emission;
     vec3 depth = min(extinction * sum, vec3(1e30));
     vec3 rest = expChannels(-depth);

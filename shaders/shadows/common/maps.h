@@ -20,6 +20,12 @@ BRUME_CONST uint kStoreFourier = 64u;
 // for any scene, and slower than the constant that lightingConstants() of the host gives.
 BRUME_CONST uint kConstantShadowStores = 64u;
 
+// The id of the constant kShadowing, bits: how media that scatter are shadowed; none where there
+// are no stores. Default: both.
+BRUME_CONST uint kConstantShadowing = 66u;
+BRUME_CONST uint kShadowingWhole = 1u;    // some spheres as a whole
+BRUME_CONST uint kShadowingSampled = 2u;  // some media at each place
+
 BRUME_CONST uint kMapTileSize = 8u;  // texels per edge of a tile; casters are binned to tiles
 
 // Distances are measured along the light's rays: from the plane through `origin` (directional) or
@@ -95,6 +101,12 @@ struct ShadowPush {
     uint64_t map;  // ShadowMap
     uint64_t target;
     uint64_t source;
+    uint count;
+};
+
+struct SharesPush {
+    uint64_t spheres;  // SphereData[count]
+    uint64_t shares;   // vec3[]
     uint count;
 };
 
