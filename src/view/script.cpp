@@ -32,7 +32,7 @@ const std::set<std::string> kWithNumbers = {"frames", "seek",  "end",      "turn
 
 const std::map<std::string, std::set<std::string>> kWords = {
     {"wait", {"settled", "compared", "reference", "recorded"}},
-    {"show", {"picture", "reference", "errors"}},
+    {"show", {"picture", "reference", "errors", "layers", "fragments"}},
     {"preview", {"on", "off"}}};
 
 const std::map<std::string, int> kKeys = {{"Space", kKeySpace}, {"Left", kKeyLeft},
@@ -175,7 +175,9 @@ void Script::runSetting(const Line& line, Stage& stage) {
     if (verb == "show")
         stage.show = word == "picture"     ? Show::Picture
                      : word == "reference" ? Show::Reference
-                                           : Show::Errors;
+                     : word == "errors"    ? Show::Errors
+                     : word == "layers"    ? Show::Layers
+                                           : Show::Fragments;
 }
 
 }  // namespace brume::view

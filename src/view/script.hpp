@@ -27,7 +27,8 @@ struct ScriptInput {
 ///   play, pause, seek SECONDS, end SECONDS
 ///   method NAME, right NAME                  of the picture, of the one to the right
 ///   set KEY=VALUE, shadow NAME
-///   split on | off | FRACTION, show picture | reference | errors
+///   split on | off | FRACTION
+///   show picture | reference | errors | layers | fragments
 ///   turn X Y, shift X Y, zoom N              as if dragged by so many pixels, notches
 ///   exposure STOPS, resolution N, preview on | off
 ///   key NAME, mouse X Y, press X Y           keys: a letter, a digit, Space, Left, Right, Home, End, F1

@@ -2,6 +2,7 @@
 #include <bench/measure.hpp>
 #include <core/image_io.hpp>
 #include <gpu/upload.hpp>
+#include <oit/layer_count.hpp>
 #include <view/stage.hpp>
 
 #include <fmt/format.h>
@@ -77,6 +78,14 @@ PaneView Stage::makeView(ivec2 pixels, int divisor) const {
             .time = timeline.now()};
 }
 
+PaneChoice Stage::wantedChoice(std::size_t index) const {
+    PaneChoice choice = choices[index];
+    if (show != Show::Layers && show != Show::Fragments) return choice;
+    choice.method = oit::layer_count::kName;
+    choice.settings = {{"counts", show == Show::Layers ? "layers" : "fragments"}};
+    return choice;
+}
+
 void Stage::pollFiles(double seconds) {
     mSinceBoth += seconds;
     if (mSinceBoth < kFilePeriod) return;
@@ -99,8 +108,9 @@ void Stage::updatePanes(ivec2 pixels) {
     bool isRebuilt = false;
     for (std::size_t i = 0; i < paneCount(); ++i) {
         const std::string before = mPanes[i].problem();
-        const bool isOther = !(mPanes[i].choice() == choices[i]);
-        const bool isDrawn = mPanes[i].show(document, choices[i], view);
+        const PaneChoice choice = wantedChoice(i);
+        const bool isOther = !(mPanes[i].choice() == choice);
+        const bool isDrawn = mPanes[i].show(document, choice, view);
         if (!mPanes[i].problem().empty() && mPanes[i].problem() != before)
             say(mPanes[i].problem(), true);
         if (!isDrawn) continue;
@@ -124,7 +134,7 @@ void Stage::saveScreenshot(const std::filesystem::path& file) {
             std::filesystem::path target = file;
             if (i == 1)
                 target.replace_filename(file.stem().string() + "-b" + file.extension().string());
-            writeImage(target, mPanes[i].read(document, choices[i], view).image);
+            writeImage(target, mPanes[i].read(document, wantedChoice(i), view).image);
         }
         say("saved " + file.string());
     });
@@ -174,13 +184,13 @@ std::optional<double> Stage::comparisonProgress() const {
 
 void Stage::updateComparison(ivec2 pixels) {
     const Compared wanted{document.revision(), choices, isSplit, makeView(pixels, 1)};
-    if (show == Show::Picture || !(mCompared == wanted)) {
+    if (!isComparing(show) || !(mCompared == wanted)) {
         mReference.cancel();
         mCompared.reset();
         mComparedDivisor = 0;
         mComparison.divisor = 0;
     }
-    if (show == Show::Picture || timeline.isPlaying || mStillSeconds < kStillAfter || mHasDrawn)
+    if (!isComparing(show) || timeline.isPlaying || mStillSeconds < kStillAfter || mHasDrawn)
         return;
     if (!mCompared) {
         mCompared = wanted;

@@ -21,7 +21,16 @@
 namespace brume::view {
 
 /// What the window shows of the pictures.
-enum class Show { Picture, Reference, Errors };
+enum class Show {
+    Picture,
+    Reference,
+    Errors,    ///< against the reference
+    Layers,    ///< how many there are in each pixel
+    Fragments  ///< how many rastered methods shade for each pixel
+};
+
+/// Whether that needs the reference.
+constexpr bool isComparing(Show show) { return show == Show::Reference || show == Show::Errors; }
 
 /// One line for the user.
 struct Message {
@@ -93,6 +102,8 @@ class Stage {
     double recordingProgress() const;
 
   private:
+    /// What a pane is to be made with; views of the work are made like methods.
+    PaneChoice wantedChoice(std::size_t index) const;
     std::size_t paneCount() const { return isSplit ? 2 : 1; }
     PaneView makeView(ivec2 pixels, int divisor) const;
     void pollFiles(double seconds);

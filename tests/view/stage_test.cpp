@@ -4,8 +4,11 @@
 #include <bench/prepare.hpp>
 #include <core/image_io.hpp>
 #include <gpu/gpu_fixture.hpp>
+#include <oit/layer_count.hpp>
 #include <scene/loader.hpp>
 #include <view/stage.hpp>
+
+#include <shaders/common/heat.h>
 
 #include "scratch_folder.hpp"
 
@@ -152,6 +155,33 @@ TEST_F(StageTest, Errors_AreMeasuredInTheBackgroundAndCancelledByMovement) {
     mStage->update(kSize, 0.01);
     EXPECT_EQ(mStage->comparison().divisor, 0);
     EXPECT_FALSE(mStage->comparisonProgress());
+}
+
+// One pane before a puff before nothing: counted where they are, fragments wherever their boxes are.
+TEST_F(StageTest, Layers_AreCounted) {
+    mStage->camera.setCamera([] {
+        scene::Camera camera;
+        camera.position = {0.4, 0.6, 4};
+        camera.target = {0.4, 0.6, 0};
+        return camera;
+    }());
+    mStage->timeline.seek(0);  // no sparks
+    const auto colorAt = [](const Image& image, ivec2 pixel) {
+        return image.at(pixel.x, pixel.y);
+    };
+    mStage->show = Show::Layers;
+    settle();
+    const Image layers = shot();
+    const vec3 none = shader::heatColor(0), one = shader::heatColor(oit::layer_count::heatOf(1)),
+               two = shader::heatColor(oit::layer_count::heatOf(2));
+    EXPECT_EQ(colorAt(layers, {1, 1}), none);
+    // The pane covers the middle; behind its left part is the puff.
+    EXPECT_LT(glm::length(colorAt(layers, {10, 8}) - two), 1e-3f);
+    EXPECT_LT(glm::length(colorAt(layers, {13, 8}) - one), 1e-3f);
+    mStage->show = Show::Fragments;
+    settle();
+    EXPECT_GE(colorAt(shot(), {13, 8}).y, one.y - 1e-3f);
+    EXPECT_EQ(mStage->history(0).names().back(), "oit.layer_count.resolve");
 }
 
 TEST_F(StageTest, Recording_WritesEveryFrameInTheScenesSize) {

@@ -223,5 +223,18 @@ TEST_F(ViewerTest, TrueWindow_FollowsKeysAndMouse) {
     EXPECT_EQ(viewer.exitCode(), 0) << mFolder.read("log");
 }
 
+#ifdef HOST_MINIMAL_EXECUTABLE
+// The demo's renderer is a host that presents with semaphores of its own.
+TEST_F(ViewerTest, HostMinimal_ShowsItsFramesInAWindow) {
+    if (!hasProgram("Xvfb")) GTEST_SKIP() << "needs Xvfb";
+    const Screen screen;
+    EXPECT_EQ(runShell("timeout 120 " HOST_MINIMAL_EXECUTABLE
+                       " --window --validate --frames 3 --size 96x72 --start 1 >" +
+                       path("log") + " 2>&1"),
+              0)
+        << mFolder.read("log");
+}
+#endif
+
 }  // namespace
 }  // namespace brume::view

@@ -37,7 +37,7 @@ constexpr KeyHelp kHelp[] = {
     {"Home, End", "beginning, end"},
     {"M", "next method"},
     {"C", "compare with a second method"},
-    {"1, 2, 3", "picture, reference, errors"},
+    {"1, 2, 3, 4, 5", "picture, reference, errors, layers, fragments"},
     {"P", "save the picture"},
     {"H", "hide the column at the side"},
     {"F1", "this list"},
@@ -67,6 +67,8 @@ bool takeKey(Stage& stage, UiState& ui, const KeyPress& press) {
     if (key == '1') stage.show = Show::Picture;
     if (key == '2') stage.show = Show::Reference;
     if (key == '3') stage.show = Show::Errors;
+    if (key == '4') stage.show = Show::Layers;
+    if (key == '5') stage.show = Show::Fragments;
     if (key == 'P') stage.saveScreenshot("brume.png");
     if (key == 'H') ui.isSideShown = !ui.isSideShown;
     if (key == kKeyF1) ui.isHelpShown = !ui.isHelpShown;

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <view/panels/panels.hpp>
 
+#include <core/image_io.hpp>
+#include <oit/layer_count.hpp>
+
+#include <shaders/common/heat.h>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace brume::view {
 namespace {
@@ -47,42 +53,68 @@ void takeInput(Stage& stage, UiState& ui, double seconds, double viewHeight) {
 
 const gpu::Image* imageOf(const Stage& stage, std::size_t index) {
     const ComparisonState& comparison = stage.comparison();
-    if (stage.show == Show::Picture || comparison.divisor == 0) return stage.pane(index).image();
+    if (!isComparing(stage.show) || comparison.divisor == 0) return stage.pane(index).image();
     if (stage.show == Show::Reference) return &comparison.exact;
     return comparison.errors[index] ? &comparison.errors[index] : nullptr;
 }
 
-/// Black 1e-6 to white 1, as bench::paintErrors() has it.
-void drawScale(ImDrawList& list, ImVec2 from, ImVec2 to) {
-    struct Stop {
-        float at;
-        ImU32 color;
-        const char* text;
+/// One colour of heatColor() and what it stands for.
+struct Mark {
+    float at;
+    const char* text;
+};
+
+ImU32 heatOf(float at) {
+    const vec3 linear = shader::heatColor(at);
+    const auto encode = [](float x) {
+        return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
     };
-    const Stop stops[] = {{0, IM_COL32(0, 0, 0, 255), "1e-6"},
-                          {1 / 6.0f, IM_COL32(0, 0, 255, 255), "1e-5"},
-                          {0.5f, IM_COL32(0, 255, 0, 255), "1e-3"},
-                          {4 / 6.0f, IM_COL32(255, 255, 0, 255), "0.01"},
-                          {5 / 6.0f, IM_COL32(255, 0, 0, 255), "0.1"},
-                          {1, IM_COL32(255, 255, 255, 255), "1"}};
+    return ImGui::ColorConvertFloat4ToU32(
+        {encode(toneMap(linear.x)), encode(toneMap(linear.y)), encode(toneMap(linear.z)), 1});
+}
+
+void drawScale(ImDrawList& list, ImVec2 from, ImVec2 to, std::span<const Mark> marks) {
+    constexpr int kSteps = 60;
     const float line = ImGui::GetFontSize(), width = to.x - from.x;
-    list.AddRectFilled({from.x - line, from.y - 0.4f * line}, {to.x + line, to.y + 1.5f * line},
-                       kShade, 3);
-    for (std::size_t i = 0; i + 1 < std::size(stops); ++i)
-        list.AddRectFilledMultiColor({from.x + stops[i].at * width, from.y},
-                                     {from.x + stops[i + 1].at * width, to.y}, stops[i].color,
-                                     stops[i + 1].color, stops[i + 1].color, stops[i].color);
-    for (const Stop& stop : stops) {
-        const float half = 0.5f * ImGui::CalcTextSize(stop.text).x;
-        list.AddText({from.x + stop.at * width - half, to.y + 0.2f * line}, kLight, stop.text);
+    list.AddRectFilled({from.x - 1.5f * line, from.y - 0.4f * line},
+                       {to.x + 1.5f * line, to.y + 1.5f * line}, kShade, 3);
+    for (int i = 0; i < kSteps; ++i) {
+        const float lo = static_cast<float>(i) / kSteps, hi = static_cast<float>(i + 1) / kSteps;
+        const ImU32 left = heatOf(lo * shader::kHeatSteps), right = heatOf(hi * shader::kHeatSteps);
+        list.AddRectFilledMultiColor({from.x + lo * width, from.y}, {from.x + hi * width, to.y},
+                                     left, right, right, left);
+    }
+    for (const Mark& mark : marks) {
+        const float half = 0.5f * ImGui::CalcTextSize(mark.text).x;
+        list.AddText({from.x + mark.at / shader::kHeatSteps * width - half, to.y + 0.2f * line},
+                     kLight, mark.text);
+    }
+}
+
+void drawScale(const Stage& stage, ImDrawList& list, ImVec2 corner) {
+    const float line = ImGui::GetFontSize();
+    const ImVec2 from(corner.x - 21 * line, corner.y - 3 * line),
+        to(corner.x - 2.5f * line, corner.y - 2.3f * line);
+    if (stage.show == Show::Errors && stage.comparison().divisor > 0) {
+        constexpr Mark kErrors[] = {{0, "1e-6"}, {1, "1e-5"}, {2, "1e-4"}, {3, "0.001"},
+                                    {4, "0.01"}, {5, "0.1"},  {6, "1"}};
+        drawScale(list, from, to, kErrors);
+    } else if (stage.show == Show::Layers || stage.show == Show::Fragments) {
+        const auto at = [](double layers) { return oit::layer_count::heatOf(layers); };
+        const Mark marks[] = {{0, "0"},          {at(1), "1"},     {at(4), "4"},
+                              {at(16), "16"},    {at(64), "64"},   {at(256), "256"},
+                              {at(1024), "1024"}};
+        drawScale(list, from, to, marks);
     }
 }
 
 std::string describeState(const Stage& stage, std::size_t index) {
     const Pane& pane = stage.pane(index);
     if (!pane.image()) return describe(stage.choices[index]);
-    std::string text = fmt::format("{}   {:.1f} ms", describe(pane.choice()),
-                                   pane.result().timeMs);
+    const bool isCounting = pane.choice().method == oit::layer_count::kName;
+    std::string text = isCounting ? "layers per pixel" : describe(pane.choice());
+    if (isCounting && stage.show == Show::Fragments) text = "fragments per pixel";
+    text += fmt::format("   {:.1f} ms", pane.result().timeMs);
     if (pane.result().errorBound && *pane.result().errorBound > 0)
         text += fmt::format("   off by at most {:.1e}", *pane.result().errorBound);
     return text;
@@ -96,7 +128,7 @@ std::string describeErrors(const Stage& stage, std::size_t index) {
 
 /// What there is to know about one picture, from the corner down.
 void drawCaption(const Stage& stage, ImDrawList& list, std::size_t index, ImVec2 at) {
-    const bool isCompared = stage.show != Show::Picture;
+    const bool isCompared = isComparing(stage.show);
     at.y += drawLabel(list, at, describeState(stage, index), kLight);
     if (!stage.pane(index).problem().empty()) drawLabel(list, at, "not up to date: see below", kRed);
     if (!isCompared) return;
@@ -172,8 +204,8 @@ ivec2 showPictures(Stage& stage, UiState& ui, double seconds) {
     for (std::size_t i = 0; i < (stage.isSplit ? 2u : 1u); ++i) {
         const gpu::Image* image = imageOf(stage, i);
         const float lo = i == 0 ? 0 : split, hi = i == 0 ? split : 1;
-        // Painted errors are not radiance: exposure is not for them.
-        const bool isRadiance = stage.show != Show::Errors || stage.comparison().divisor == 0;
+        // Painted figures are not radiance: exposure is not for them.
+        const bool isRadiance = stage.show == Show::Picture || stage.show == Show::Reference;
         ui.pictures[i] = {image, isRadiance ? static_cast<float>(std::exp2(stage.exposure)) : 1.0f,
                           isRadiance};
         if (image)
@@ -185,9 +217,7 @@ ivec2 showPictures(Stage& stage, UiState& ui, double seconds) {
         list.PopClipRect();
     }
     if (stage.isSplit) showDivider(stage, ui, from, size);
-    if (stage.show == Show::Errors && stage.comparison().divisor > 0 && size.x > 30 * line)
-        drawScale(list, {from.x + size.x - 20 * line, from.y + size.y - 3 * line},
-                  {from.x + size.x - 2 * line, from.y + size.y - 2.3f * line});
+    if (size.x > 30 * line) drawScale(stage, list, {from.x + size.x, from.y + size.y});
     drawMessages(stage, list, from, size);
     return pixels;
 }

@@ -29,17 +29,26 @@ void showSide(Stage& stage, UiState& ui) {
 }
 
 void showComparison(Stage& stage) {
-    ImGui::TextUnformatted("show");
-    const auto offer = [&](const char* name, Show show, const char* meaning) {
-        ImGui::SameLine();
-        if (ImGui::RadioButton(name, stage.show == show)) stage.show = show;
-        explain(meaning);
+    struct Offer {
+        const char* name;
+        Show show;
+        const char* meaning;
     };
-    offer("picture", Show::Picture, "What the method makes (1)");
-    offer("reference", Show::Reference,
-          "The exact image, computed on the processor in double precision (2)");
-    offer("errors", Show::Errors,
-          "Absolute difference to the exact image, on a logarithmic scale (3)");
+    constexpr Offer kOffers[] = {
+        {"picture", Show::Picture, "What the method makes (1)"},
+        {"reference", Show::Reference,
+         "The exact image, computed on the processor in double precision (2)"},
+        {"errors", Show::Errors,
+         "Absolute difference to the exact image, on a logarithmic scale (3)"},
+        {"layers", Show::Layers,
+         "How many media and surfaces lie in each pixel: the length of exact lists (4)"},
+        {"fragments", Show::Fragments,
+         "How often rastered methods shade each pixel, misses included: overdraw (5)"}};
+    for (const Offer& offer : kOffers) {
+        if (offer.show != Show::Picture && offer.show != Show::Layers) ImGui::SameLine();
+        if (ImGui::RadioButton(offer.name, stage.show == offer.show)) stage.show = offer.show;
+        explain(offer.meaning);
+    }
     ImGui::Checkbox("split the picture", &stage.isSplit);
     explain("A second method on the right (C); drag the line between them");
     if (!stage.isSplit) return;
