@@ -119,16 +119,20 @@ struct Renderer::Impl {
             // Lights without casters have no maps.
             if (casterBounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
                 return false;
-            composer.shadows->invalidate();
         }
+        // Of a camera that moves, maps that are kept need nothing but their new origin.
+        const auto keep = composer.shadowSettings.find("keep");
+        const bool areMapsKept =
+            !isTimeNew && keep != composer.shadowSettings.end() && keep->second == "true";
+        if (composer.shadows && !areMapsKept) composer.shadows->invalidate();
         changeSize({static_cast<std::uint32_t>(view.camera.width),
                     static_cast<std::uint32_t>(view.camera.height)});
-        changeView(view);
+        changeView(view, areMapsKept);
         prepareMethod();
         return true;
     }
 
-    void changeView(const View& view) {
+    void changeView(const View& view, bool areMapsKept) {
         composer.scene.setView(view);
         if (composer.shadows)
             composer.shadows->fit(composer.scene.lights(), view.camera.position, casterBounds);
@@ -137,10 +141,11 @@ struct Renderer::Impl {
             composer.scene.recordView(commands, ring);
             if (!composer.shadows) return;
             composer.casters->recordOrigin(commands, ring, view.camera.position);
+            composer.shadows->recordMaps(commands, ring);
             commands.fullBarrier();
         });
-        areMapsBuilt = false;
-        if (composer.shadows) binCasters();
+        areMapsBuilt = areMapsKept;
+        if (composer.shadows && !areMapsKept) binCasters();
     }
 
     /// Methods allocate by size, and some devices compile at first use: those of the last sizes are

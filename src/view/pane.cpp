@@ -62,6 +62,7 @@ void Pane::rebuild(const Document& document, const PaneChoice& choice, const Pan
     render::Options options;
     options.method = choice.method;
     options.settings = choice.settings;
+    options.settings.try_emplace("shadow.keep", "true");  // only what moves costs
     options.triangleHashes = true;
     mRenderer =
         std::make_unique<render::Renderer>(*mDevice, mScene, options, *mLog, effects.get());

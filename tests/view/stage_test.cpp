@@ -95,6 +95,30 @@ TEST_F(StageTest, MovedView_EqualsANewRenderer) {
     EXPECT_EQ(computeHash(shot()), first);
 }
 
+// Shadow maps are kept then, with the roundings of the camera that they were built for.
+TEST_F(StageTest, MovedCamera_KeepsShadowMaps) {
+    for (const char* store : {"total", "exact"}) {
+        mStage->choices[0].shadow = store;
+        mStage->camera.reset();
+        settle();
+        mStage->camera.apply({.turn = {-70, 30}});
+        settle();
+        for (const auto& pass : mStage->pane(0).result().passes)
+            EXPECT_FALSE(pass.name.ends_with(".build")) << pass.name;
+        const Image moved = shot();
+        render::PreparedScene scene =
+            bench::prepareScene(scene::loadScene(mFolder / "scene.json", mQuiet), mQuiet);
+        scene.scene.camera = mStage->camera.camera();
+        bench::overrideShadows(scene.scene, store);
+        render::Renderer renderer(device(), scene, {.method = "tile"}, mQuiet);
+        const Image fresh = renderer.renderFrame().image;
+        float largest = 0;
+        for (std::size_t i = 0; i < fresh.pixels.size(); ++i)
+            largest = std::max(largest, glm::length(fresh.pixels[i] - moved.pixels[i]));
+        EXPECT_LT(largest, 1e-4f) << store;
+    }
+}
+
 TEST_F(StageTest, ResizedPicture_NeedsNoNewRenderer) {
     settle();
     for (const ivec2 size : {ivec2(31, 17), kSize, ivec2(1, 1)}) {
