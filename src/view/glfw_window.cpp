@@ -86,7 +86,11 @@ class GlfwWindow : public Window {
     double contentScale() const override {
         float x = 1, y = 1;
         glfwGetWindowContentScale(mWindow, &x, &y);
-        return x;
+        // Where the window is measured in points, these are scaled already.
+        int points = 0, ignored = 0;
+        glfwGetWindowSize(mWindow, &points, &ignored);
+        const std::uint32_t pixels = framebuffer().width;
+        return points > 0 && pixels > 0 ? x * points / pixels : x;
     }
 
     void setTitle(const std::string& title) override {

@@ -72,6 +72,9 @@ Recorder::Recorder(std::filesystem::path file, double frameRate)
     if (mIsFilm && !hasFfmpeg())
         throw failure(kDoing, mFile.string(),
                       "ffmpeg is not installed; record .png or .exr instead");
+    std::error_code error;
+    if (mFile.has_parent_path()) std::filesystem::create_directories(mFile.parent_path(), error);
+    if (error) throw failure(kDoing, mFile.parent_path().string(), error.message());
 }
 
 Recorder::~Recorder() {

@@ -144,6 +144,7 @@ void Stage::startRecording(const std::filesystem::path& file) {
     attempt([&] {
         mRecorder = std::make_unique<Recorder>(file, timeline.frameRate);
         mRecordFrame = 0;
+        mTimeBefore = timeline.now();
         mRecordEnd = static_cast<int>(timeline.end() * timeline.frameRate + 1e-6);
         timeline.isPlaying = false;
     });
@@ -152,6 +153,7 @@ void Stage::startRecording(const std::filesystem::path& file) {
 void Stage::stopRecording() {
     if (!mRecorder) return;
     const std::unique_ptr<Recorder> recorder = std::move(mRecorder);
+    timeline.seek(mTimeBefore);
     attempt([&] {
         recorder->finish();
         say(fmt::format("recorded {} frames to {}", recorder->count(), recorder->file().string()));
@@ -172,6 +174,7 @@ void Stage::recordFrame() {
         mRecorder->add(mPanes[0].read(document, choices[0], view).image, mRecordFrame);
     } catch (const Error& error) {
         mRecorder.reset();
+        timeline.seek(mTimeBefore);
         return say(error.what(), true);
     }
     if (++mRecordFrame > mRecordEnd) stopRecording();

@@ -142,6 +142,7 @@ class Stage {
 
     std::unique_ptr<Recorder> mRecorder;
     int mRecordFrame = 0, mRecordEnd = 0;
+    double mTimeBefore = 0;  // to go back to
 };
 
 }  // namespace brume::view

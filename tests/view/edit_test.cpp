@@ -188,13 +188,13 @@ TEST(Document_EditedEffect, ShowsAtOnceAndSavingIsNoNews) {
 
 TEST(Recorder_Sequence, IsNumbered) {
     const ScratchFolder folder;
-    Recorder recorder(folder / "f_###.png", 24);
+    Recorder recorder(folder / "new/f_###.png", 24);
     recorder.add(Image(4, 2, vec3(0.5)), 7);
     recorder.add(Image(4, 2, vec3(0.25f)), 8);
     recorder.finish();
     EXPECT_EQ(recorder.count(), 2);
-    EXPECT_NEAR(readImage(folder / "f_007.png").at(3, 1).x, 0.5, 0.01);
-    EXPECT_TRUE(fs::exists(folder / "f_008.png"));
+    EXPECT_NEAR(readImage(folder / "new/f_007.png").at(3, 1).x, 0.5, 0.01);
+    EXPECT_TRUE(fs::exists(folder / "new/f_008.png"));
 }
 
 TEST(Recorder_UnknownKind, IsRefused) { EXPECT_THROW(Recorder("film.txt", 24), Error); }

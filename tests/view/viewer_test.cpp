@@ -118,10 +118,10 @@ TEST_F(ViewerTest, NoScreen_IsOneLine) {
     EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1);
 }
 
-/// A virtual screen; the number is one that is free.
+/// A virtual screen; the number is one that is free. Its pixels lie in a file of `folder`.
 class Screen {
   public:
-    Screen() {
+    explicit Screen(const fs::path& folder) : mFile(folder / "Xvfb_screen0") {
         int ends[2];
         if (pipe(ends) != 0) return;
         mProcess = fork();
@@ -129,13 +129,13 @@ class Screen {
             const std::string descriptor = std::to_string(ends[1]);
             if (!freopen("/dev/null", "w", stderr)) _exit(126);
             execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "800x600x24",
-                   "-nolisten", "tcp", nullptr);
+                   "-nolisten", "tcp", "-fbdir", mFile.parent_path().c_str(), nullptr);
             _exit(127);
         }
         close(ends[1]);
         char text[16] = {};
         for (std::size_t length = 0; length + 1 < sizeof(text);) {
-            if (read(ends[0], text + length, 1) != 1 || text[length] == '\n') break;
+            if (::read(ends[0], text + length, 1) != 1 || text[length] == '\n') break;
             ++length;
         }
         close(ends[0]);
@@ -150,9 +150,28 @@ class Screen {
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
+    /// What is on it (X Window Dump, see XWDFile.h: big-endian words, then pixels).
+    Image read(int width, int height) const {
+        std::ifstream stream(mFile, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+        const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes.at(at)); };
+        const auto word = [&](std::size_t at) {
+            return std::size_t{byte(at)} << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
+        };
+        const std::size_t start = word(0) + 12 * word(76), stride = word(48);
+        Image image(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int channel = 0; channel < 3; ++channel)
+                    image.at(x, y)[channel] = static_cast<float>(linearFromSrgb(
+                        byte(start + y * stride + 4 * x + 2 - channel) / 255.0));
+        return image;
+    }
+
     std::string name;
 
   private:
+    fs::path mFile;
     pid_t mProcess = -1;
 };
 
@@ -187,7 +206,7 @@ class Child {
 // Keys and clicks go to the window as a user's would; its title says what they did.
 TEST_F(ViewerTest, TrueWindow_FollowsKeysAndMouse) {
     if (!hasProgram("Xvfb") || !hasProgram("xdotool")) GTEST_SKIP() << "needs Xvfb and xdotool";
-    const Screen screen;
+    const Screen screen(mFolder / "");
     Child viewer("cd " + path("") + " && exec " + command(""));
     const auto waitFor = [&](const std::string& condition) {
         for (int i = 0; i < 300; ++i) {
@@ -223,11 +242,30 @@ TEST_F(ViewerTest, TrueWindow_FollowsKeysAndMouse) {
     EXPECT_EQ(viewer.exitCode(), 0) << mFolder.read("log");
 }
 
+// The swapchain shows what the interface draws, colours in their places.
+TEST_F(ViewerTest, TrueWindow_ShowsWhatIsDrawn) {
+    if (!hasProgram("Xvfb")) GTEST_SKIP() << "needs Xvfb";
+    const Screen screen(mFolder / "");
+    mFolder.write("script", "wait settled\nframes 2\nwindow drawn.png\nframes 100\nquit\n");
+    Child viewer("cd " + path("") + " && exec " + command("--script script"));
+    for (int i = 0; i < 300 && !fs::exists(mFolder / "drawn.png") && !viewer.isGone(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ASSERT_TRUE(fs::exists(mFolder / "drawn.png")) << mFolder.read("log");
+    const Image drawn = readImage(mFolder / "drawn.png");
+    double share = 1;
+    for (int i = 0; i < 50 && share > 0.001; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        share = differingShare(drawn, screen.read(drawn.width, drawn.height));
+    }
+    EXPECT_LE(share, 0.001);
+    EXPECT_FALSE(isBlank(drawn, 0, 0, drawn.width / 2, drawn.height));
+}
+
 #ifdef HOST_MINIMAL_EXECUTABLE
 // The demo's renderer is a host that presents with semaphores of its own.
 TEST_F(ViewerTest, HostMinimal_ShowsItsFramesInAWindow) {
     if (!hasProgram("Xvfb")) GTEST_SKIP() << "needs Xvfb";
-    const Screen screen;
+    const Screen screen(mFolder / "");
     EXPECT_EQ(runShell("timeout 120 " HOST_MINIMAL_EXECUTABLE
                        " --window --validate --frames 3 --size 96x72 --start 1 >" +
                        path("log") + " 2>&1"),
