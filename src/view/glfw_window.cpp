@@ -90,7 +90,8 @@ class GlfwWindow : public Window {
         int points = 0, ignored = 0;
         glfwGetWindowSize(mWindow, &points, &ignored);
         const std::uint32_t pixels = framebuffer().width;
-        return points > 0 && pixels > 0 ? x * points / pixels : x;
+        if (points < 1 || pixels < 1) return x;
+        return static_cast<double>(x) * points / pixels;
     }
 
     void setTitle(const std::string& title) override {
