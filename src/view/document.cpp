@@ -56,10 +56,12 @@ void Document::load(const std::vector<std::filesystem::path>& changed) {
             // What the user has changed and not saved stays.
             const auto known = std::find_if(
                 mEffects.begin(), mEffects.end(), [&](const auto& edit) {
-                    return edit && edit->file() == instance.file && edit->isChanged() && !isChanged(instance.file);
+                    return edit->file() == instance.file && edit->isChanged() &&
+                           !isChanged(instance.file);
                 });
             effects.push_back(known != mEffects.end() ? std::make_unique<EffectEdit>(**known)
-                                                      : std::make_unique<EffectEdit>(instance.file));
+                                                      : std::make_unique<EffectEdit>(
+                                                            instance.file));
         }
     std::swap(mEffects, effects);
     try {

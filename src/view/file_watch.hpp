@@ -14,8 +14,8 @@ class FileWatch {
     /// were watched first.
     void watch(const std::vector<std::filesystem::path>& files);
 
-    /// Those written, made or removed since watch() or the last call. A file is reported once it has
-    /// been the same for two calls in a row, so that half-written ones are not read.
+    /// Those written, made or removed since watch() or the last call. A file is reported once it
+    /// has been the same for two calls in a row, so that half-written ones are not read.
     std::vector<std::filesystem::path> takeChanged();
 
   private:

@@ -37,7 +37,9 @@ class OffscreenWindow : public Window {
     double contentScale() const override { return 1; }
     void setTitle(const std::string&) override {}
     const gpu::Image* acquire() override { return &mImage; }
-    VkImageLayout presentLayout() const override { return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; }
+    VkImageLayout presentLayout() const override {
+        return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    }
     void present() override {}
 
   private:

@@ -15,7 +15,7 @@ namespace brume::view {
 struct PaneChoice {
     std::string method;
     scene::Settings settings;  ///< of the method; "shadow.<name>" of all shadow maps
-    std::string shadow;        ///< store of every light that casts shadows; empty: as the scene says
+    std::string shadow;        ///< store of every light; empty: as the scene says
 
     bool operator==(const PaneChoice&) const = default;
 };

@@ -11,8 +11,8 @@ namespace brume::view {
 class Recorder {
   public:
     /// `file`: .png or .exr, numbered as makeFramePath() says, or .mp4, .mkv or .webm, for which
-    /// ffmpeg is run from the PATH. Makes its folder. Throws an input Error for other names, a failure Error without
-    /// ffmpeg.
+    /// ffmpeg is run from the PATH. Makes its folder. Throws an input Error for other names, a
+    /// failure Error without ffmpeg.
     Recorder(std::filesystem::path file, double frameRate);
     /// Without finish(): a film is given up and its file removed.
     ~Recorder();

@@ -31,7 +31,8 @@ struct ScriptInput {
 ///   show picture | reference | errors | layers | fragments
 ///   turn X Y, shift X Y, zoom N              as if dragged by so many pixels, notches
 ///   exposure STOPS, resolution N, preview on | off
-///   key NAME, mouse X Y, press X Y           keys: a letter, a digit, Space, Left, Right, Home, End, F1
+///   key NAME, mouse X Y, press X Y           keys: letters, digits, Space, Left,
+///                                            Right, Home, End, F1
 ///   picture FILE, window FILE, record FILE
 ///   quit
 class Script {

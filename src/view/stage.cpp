@@ -18,7 +18,7 @@ constexpr double kFilePeriod = 0.3;
 constexpr double kMessageSeconds = 8;
 
 /// Comparisons begin coarse, so that something is seen soon.
-constexpr int kCoarseComparison = 4;
+constexpr int kCoarseComparison = 4, kLargeEdge = 64;
 
 }  // namespace
 
@@ -87,9 +87,9 @@ PaneChoice Stage::wantedChoice(std::size_t index) const {
 }
 
 void Stage::pollFiles(double seconds) {
-    mSinceBoth += seconds;
-    if (mSinceBoth < kFilePeriod) return;
-    mSinceBoth = 0;
+    mSincePoll += seconds;
+    if (mSincePoll < kFilePeriod) return;
+    mSincePoll = 0;
     const std::optional<Document::News> news = document.pollFiles();
     if (!news) return;
     say(news->text, news->isError);
@@ -197,8 +197,9 @@ void Stage::updateComparison(ivec2 pixels) {
         return;
     if (!mCompared) {
         mCompared = wanted;
-        const int coarse = std::max(kCoarseComparison, resolutionDivisor);
-        return startComparison(pixels, std::min({pixels.x, pixels.y}) > 64 ? coarse : resolutionDivisor);
+        const bool isLarge = std::min(pixels.x, pixels.y) > kLargeEdge;
+        return startComparison(
+            pixels, std::max(isLarge ? kCoarseComparison : 1, resolutionDivisor));
     }
     takeComparison();
     if (!mReference.isRunning() && mComparison.divisor > resolutionDivisor &&

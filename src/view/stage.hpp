@@ -122,7 +122,7 @@ class Stage {
     std::optional<PaneView> mLastView;
     std::uint64_t mLoads = 0;
     double mStillSeconds = 1e9;  // since the view changed
-    double mSinceBoth = 0;       // since files were looked at
+    double mSincePoll = 0;       // since files were looked at
     int mDivisor = 1;
     bool mHasDrawn = false;
     Message mMessage;

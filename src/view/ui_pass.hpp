@@ -18,8 +18,8 @@ struct UiPicture {
 
 class UiPass {
   public:
-    /// Takes over the fonts of the current ImGui context, once they are all added. `format`: of what
-    /// it draws into, stored as it is (UNORM).
+    /// Takes over the fonts of the current ImGui context, once they are all added. `format`: of
+    /// what it draws into, stored as it is (UNORM).
     UiPass(gpu::Submitter& submitter, VkFormat format);
 
     /// Records the drawing into all of `target`, which may have any layout and content and is left

@@ -60,7 +60,8 @@ class Window {
 /// without GLFW.
 std::unique_ptr<Window> openWindow(int width, int height, const std::string& title);
 
-/// An image of that size; time goes on by 1/24 s from one picture to the next, however long it takes.
+/// An image of that size; time goes on by 1/24 s from one picture to the next, however long it
+/// takes.
 std::unique_ptr<Window> makeOffscreenWindow(int width, int height);
 
 }  // namespace brume::view
