@@ -131,6 +131,7 @@ TEST_F(StageTest, ResizedPicture_NeedsNoNewRenderer) {
 }
 
 TEST_F(StageTest, Playing_ChangesThePicture) {
+    mStage->choices[0].shadow = "none";
     settle();
     const std::uint64_t before = computeHash(shot());
     mStage->timeline.toggle();
@@ -142,6 +143,7 @@ TEST_F(StageTest, Playing_ChangesThePicture) {
 }
 
 TEST_F(StageTest, WrongSetting_IsToldAndThePictureStays) {
+    mStage->choices[0].shadow = "none";
     settle();
     const PaneChoice good = mStage->choices[0];
     mStage->choices[0].settings["epsilon"] = "7";
@@ -209,6 +211,7 @@ TEST_F(StageTest, Layers_AreCounted) {
 }
 
 TEST_F(StageTest, Recording_WritesEveryFrameInTheScenesSize) {
+    mStage->choices[0].shadow = "none";
     mStage->timeline.frameRate = 4;
     mStage->timeline.setEnd(0.5);
     mStage->startRecording(mFolder / "f_##.png");
@@ -221,6 +224,7 @@ TEST_F(StageTest, Recording_WritesEveryFrameInTheScenesSize) {
 }
 
 TEST_F(StageTest, ChangedFile_IsShown) {
+    mStage->choices[0].shadow = "none";
     settle();
     const std::uint64_t before = computeHash(shot());
     std::string text = test::kScene;
