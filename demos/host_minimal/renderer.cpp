@@ -47,10 +47,11 @@ struct Push {
 
 }  // namespace
 
-Renderer::Renderer(std::uint32_t width_, std::uint32_t height_, bool validate)
+Renderer::Renderer(std::uint32_t width_, std::uint32_t height_, bool validate,
+                   const std::vector<const char*>& windowExtensions)
     : width(width_), height(height_) {
-    createInstance(validate);
-    createDevice();
+    createInstance(validate, windowExtensions);
+    createDevice(!windowExtensions.empty());
     color = createImage(VK_FORMAT_R8G8B8A8_SRGB,
                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -81,7 +82,7 @@ Renderer::~Renderer() {
     vkDestroyInstance(instance, nullptr);
 }
 
-void Renderer::createInstance(bool validate) {
+void Renderer::createInstance(bool validate, std::vector<const char*> extensions) {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.apiVersion = VK_API_VERSION_1_3;
     const VkValidationFeatureEnableEXT enabled =
@@ -90,14 +91,15 @@ void Renderer::createInstance(bool validate) {
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &enabled;
     const char* const layer = "VK_LAYER_KHRONOS_validation";
-    const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    if (validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &application;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     if (validate) {
         info.pNext = &features;
-        info.enabledLayerCount = info.enabledExtensionCount = 1;
+        info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &layer;
-        info.ppEnabledExtensionNames = &extension;
     }
     check(vkCreateInstance(&info, nullptr, &instance), "creating instance");
     if (!validate) return;
@@ -115,7 +117,7 @@ void Renderer::createInstance(bool validate) {
 }
 
 // The first device; with the features that Brume asks for (docs/host.md).
-void Renderer::createDevice() {
+void Renderer::createDevice(bool hasWindow) {
     std::uint32_t count = 1;
     vkEnumeratePhysicalDevices(instance, &count, &physicalDevice);
     if (count == 0) throw std::runtime_error("there is no Vulkan device");
@@ -137,13 +139,14 @@ void Renderer::createDevice() {
     VkDeviceQueueCreateInfo queues{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queues.queueCount = 1;
     queues.pQueuePriorities = &priority;
-    const char* const extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+    const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME,
+                                      VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queues;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &extension;
+    info.enabledExtensionCount = hasWindow ? 2 : 1;
+    info.ppEnabledExtensionNames = extensions;
     check(vkCreateDevice(physicalDevice, &info, nullptr, &device), "creating device");
     vkGetDeviceQueue(device, queueFamily, 0, &queue);
 }
@@ -331,7 +334,7 @@ void Renderer::drawOpaque(VkCommandBuffer commands, double seconds) {
     vkCmdEndRendering(commands);
 }
 
-void Renderer::endFrame() {
+void Renderer::endFrame(VkSemaphore wait, VkSemaphore signal) {
     Frame& frame = mFrames[mFrame++ % kFramesInFlight];
     check(vkEndCommandBuffer(frame.commands), "ending commands");
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -339,6 +342,15 @@ void Renderer::endFrame() {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
+    VkSemaphoreSubmitInfo semaphores[2] = {{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
+                                           {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
+    semaphores[0].semaphore = wait;
+    semaphores[1].semaphore = signal;
+    semaphores[0].stageMask = semaphores[1].stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    submit.waitSemaphoreInfoCount = wait ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &semaphores[0];
+    submit.signalSemaphoreInfoCount = signal ? 1 : 0;
+    submit.pSignalSemaphoreInfos = &semaphores[1];
     check(vkQueueSubmit2(queue, 1, &submit, frame.fence), "submitting");
 }
 

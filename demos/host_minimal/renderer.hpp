@@ -22,7 +22,9 @@ struct Image {
 class Renderer {
   public:
     /// `validate`: with the Khronos validation layer and synchronization validation.
-    Renderer(std::uint32_t width, std::uint32_t height, bool validate);
+    /// `windowExtensions`: of the instance, for a window to show the images; may be empty.
+    Renderer(std::uint32_t width, std::uint32_t height, bool validate,
+             const std::vector<const char*>& windowExtensions = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -32,7 +34,9 @@ class Renderer {
     /// Draws everything opaque; leaves the colours in COLOR_ATTACHMENT_OPTIMAL and the depths in
     /// DEPTH_ATTACHMENT_OPTIMAL.
     void drawOpaque(VkCommandBuffer commands, double seconds);
-    void endFrame();
+    /// Submits; waits for and signals these semaphores (none: null).
+    void endFrame(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
+    std::uint32_t slot() const { return mFrame % kFramesInFlight; }  ///< of the frame that is recorded
     void waitIdle() { vkDeviceWaitIdle(device); }
 
     /// Writes the colours of the last frame.
@@ -58,8 +62,8 @@ class Renderer {
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkFence fence = VK_NULL_HANDLE;
     };
-    void createInstance(bool validate);
-    void createDevice();
+    void createInstance(bool validate, std::vector<const char*> extensions);
+    void createDevice(bool hasWindow);
     void createFrames();
     void createPipeline();
     void setCamera();

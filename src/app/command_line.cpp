@@ -9,6 +9,7 @@
 #include <app/commands/list.hpp>
 #include <app/commands/render.hpp>
 #include <app/commands/simulate.hpp>
+#include <app/commands/view.hpp>
 #include <app/console.hpp>
 #include <bench/row.hpp>
 #include <core/error.hpp>
@@ -30,6 +31,7 @@ struct Invocation {
     SimulateArguments simulate;
     InspectArguments inspect;
     ListArguments list;
+    ViewArguments view;
     std::function<void(const Log&)> command;
 };
 
@@ -152,6 +154,22 @@ void addList(CLI::App& app, Invocation& invocation) {
         [&] { invocation.command = [&](const Log& log) { runList(invocation.list, log); }; });
 }
 
+void addView(CLI::App& app, Invocation& invocation) {
+    ViewArguments& a = invocation.view;
+    CLI::App* command = app.add_subcommand("view", "Show a scene in a window");
+    command->add_option("scene", a.scene, "Scene file (.json)")->required();
+    command->add_option("--method", a.method, "Method of `brume list methods`");
+    command->add_option("--shadow", a.shadow, "Shadow store of all lights, or none");
+    command->add_option("--set", a.settings, "Setting of the method, key=value")
+        ->allow_extra_args(false);
+    command->add_option("--size", a.size, "WIDTHxHEIGHT of the window (default 1280x720)");
+    command->add_option("--script", a.script, "Do what this file says, see docs/viewer.md");
+    command->add_flag("--offscreen", a.isOffscreen, "Open no window; for scripts");
+    addDeviceOptions(*command, a.device);
+    command->callback(
+        [&] { invocation.command = [&](const Log& log) { runView(invocation.view, log); }; });
+}
+
 /// Parses into `invocation`; the exit code if that is already the end (help, version, wrong usage).
 std::optional<int> parse(int argc, char** argv, Invocation& invocation) {
     CLI::App app("Particle and volumetric effects with exact transparency", "brume");
@@ -166,6 +184,7 @@ std::optional<int> parse(int argc, char** argv, Invocation& invocation) {
     addSimulate(app, invocation);
     addInspect(app, invocation);
     addList(app, invocation);
+    addView(app, invocation);
     try {
         app.parse(argc, argv);
         return std::nullopt;

@@ -36,20 +36,28 @@ std::optional<int> parseInteger(std::string_view text) {
 
 }  // namespace
 
-std::unique_ptr<gpu::Device> openDevice(const DeviceArguments& arguments, const Log& log) {
+gpu::DeviceOptions makeDeviceOptions(const DeviceArguments& arguments) {
     gpu::DeviceOptions options;
     options.device = arguments.device.empty() ? readEnvironment("BRUME_DEVICE") : arguments.device;
     options.validate = arguments.validate;
     options.synchronizationValidation = arguments.validate;
     options.pipelineCacheFile = findPipelineCacheFile();
-    return gpu::Device::create(options, log);
+    return options;
+}
+
+std::unique_ptr<gpu::Device> openDevice(const DeviceArguments& arguments, const Log& log) {
+    return gpu::Device::create(makeDeviceOptions(arguments), log);
 }
 
 void checkValidation(const gpu::Device& device, const Log& log) {
-    const std::vector<std::string> messages = device.validationMessages();
+    checkValidation(device.validationMessages(), device.info().name, log);
+}
+
+void checkValidation(const std::vector<std::string>& messages, const std::string& device,
+                     const Log& log) {
     if (messages.empty()) return;
     for (const std::string& message : messages) log.error(message);
-    throw failure("validating", device.info().name,
+    throw failure("validating", device,
                   fmt::format("the validation layers reported {} messages, none is allowed",
                               messages.size()));
 }

@@ -20,11 +20,17 @@ struct DeviceArguments {
     bool validate = false;  ///< run under the validation layers; any message fails the command
 };
 
+/// With the pipeline cache in the user's cache folder.
+gpu::DeviceOptions makeDeviceOptions(const DeviceArguments& arguments);
+
 /// Opens the device, with the pipeline cache in the user's cache folder.
 std::unique_ptr<gpu::Device> openDevice(const DeviceArguments& arguments, const Log& log);
 
 /// Throws a failure Error with the first validation message, if there was one.
 void checkValidation(const gpu::Device& device, const Log& log);
+/// The same for the messages that there were.
+void checkValidation(const std::vector<std::string>& messages, const std::string& device,
+                     const Log& log);
 
 /// "1280x720" to a size in [1, 16384]. Throws an input Error.
 ivec2 parseSize(const std::string& text);

@@ -10,6 +10,8 @@
 #include <core/error.hpp>
 #include <core/image_io.hpp>
 
+#include <shaders/common/heat.h>
+
 namespace brume::bench {
 namespace {
 
@@ -112,24 +114,13 @@ std::vector<std::uint8_t> findDisagreement(std::span<const std::uint32_t> a,
 }
 
 Image paintErrors(std::span<const float> absolute, int width, int height) {
-    // One colour per decade from 1e-6 to 1, linear radiance between them.
-    constexpr std::array<vec3, 7> kDecades = {{{0, 0, 0},
-                                               {0.02f, 0.03f, 0.35f},
-                                               {0, 0.25f, 0.4f},
-                                               {0.05f, 0.4f, 0.05f},
-                                               {0.7f, 0.55f, 0},
-                                               {0.7f, 0.05f, 0},
-                                               {1, 1, 1}}};
     Image image(width, height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (!std::isfinite(absolute[i])) {
             image.pixels[i] = {1, 0, 1};
             continue;
         }
-        const float decade = std::clamp(std::log10(std::max(absolute[i], 1e-6f)) + 6, 0.f, 6.f);
-        const int below = std::min(static_cast<int>(decade), 5);
-        image.pixels[i] =
-            glm::mix(kDecades[below], kDecades[below + 1], decade - static_cast<float>(below));
+        image.pixels[i] = shader::heatColor(std::log10(std::max(absolute[i], 1e-6f)) + 6);
     }
     return image;
 }

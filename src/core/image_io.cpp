@@ -160,37 +160,49 @@ OpenImage openFile(const std::filesystem::path& file, std::int64_t maxPixels) {
     return openImage(file.string(), nullptr, file.string(), maxPixels);
 }
 
-std::vector<unsigned char> encodePixels(const Image& image) {
-    std::vector<unsigned char> bytes;
-    bytes.reserve(image.pixels.size() * 3);
-    for (const vec3& pixel : image.pixels)
-        for (int channel = 0; channel < 3; ++channel) {
-            const double x = srgbFromLinear(toneMap(pixel[channel]));
-            bytes.push_back(static_cast<unsigned char>(std::lround(255.0 * x)));
-        }
-    return bytes;
-}
+/// What goes into a file: exactly one kind of pixels.
+struct Pixels {
+    int width = 0, height = 0;
+    const vec3* linear = nullptr;
+    const unsigned char* srgb = nullptr;
+    const char* description = nullptr;
+};
 
-void writePixels(const std::filesystem::path& file, const Image& image, const char* format,
-                 bool isFloat) {
-    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+void writePixels(const std::filesystem::path& file, const Pixels& pixels) {
+    const bool isFloat = pixels.linear;
+    std::unique_ptr<OIIO::ImageOutput> output =
+        OIIO::ImageOutput::create(isFloat ? "openexr" : "png");
     if (!output) throw failure(kWriting, file.string(), OIIO::geterror());
-    OIIO::ImageSpec spec(image.width, image.height, 3,
+    OIIO::ImageSpec spec(pixels.width, pixels.height, 3,
                          isFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
     spec["oiio:ColorSpace"] = isFloat ? "Linear" : "sRGB";
     if (isFloat) {
         spec["compression"] = "zip";
         // The writer would put in the time: the same picture shall be the same bytes.
         spec["DateTime"] = "1970:01:01 00:00:00";
-    } else {
-        spec["ImageDescription"] = kToneCurveText;
     }
+    if (pixels.description) spec["ImageDescription"] = pixels.description;
     bool isWritten = output->open(file.string(), spec);
     if (isWritten && isFloat)
-        isWritten = output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
+        isWritten = output->write_image(OIIO::TypeDesc::FLOAT, pixels.linear);
     else if (isWritten)
-        isWritten = output->write_image(OIIO::TypeDesc::UINT8, encodePixels(image).data());
+        isWritten = output->write_image(OIIO::TypeDesc::UINT8, pixels.srgb);
     if (!isWritten || !output->close()) throw failure(kWriting, file.string(), output->geterror());
+}
+
+/// Beside the file first, so that it appears whole or not at all.
+void writeWhole(const std::filesystem::path& file, const Pixels& pixels) {
+    std::filesystem::path part = file;
+    part += ".part";
+    std::error_code error;
+    try {
+        writePixels(part, pixels);
+    } catch (const Error&) {
+        std::filesystem::remove(part, error);
+        throw;
+    }
+    std::filesystem::rename(part, file, error);
+    if (error) throw failure(kWriting, file.string(), error.message());
 }
 
 }  // namespace
@@ -231,17 +243,30 @@ void writeImage(const std::filesystem::path& file, const Image& image) {
     if (extension != ".exr" && extension != ".png")
         throw inputError(kWriting, file.string(), "unknown extension, allowed are .exr and .png");
     if (image.isEmpty()) throw inputError(kWriting, file.string(), "the image has no pixels");
-    std::filesystem::path part = file;
-    part += ".part";
-    std::error_code error;
-    try {
-        writePixels(part, image, extension == ".exr" ? "openexr" : "png", extension == ".exr");
-    } catch (const Error&) {
-        std::filesystem::remove(part, error);
-        throw;
-    }
-    std::filesystem::rename(part, file, error);
-    if (error) throw failure(kWriting, file.string(), error.message());
+    if (extension == ".exr")
+        return writeWhole(file, {image.width, image.height, image.pixels.data()});
+    const std::vector<unsigned char> bytes = encodeSrgb8(image);
+    writeWhole(file, {image.width, image.height, nullptr, bytes.data(), kToneCurveText});
+}
+
+void writeSrgb8(const std::filesystem::path& file, int width, int height,
+                const std::vector<unsigned char>& pixels) {
+    if (file.extension() != ".png")
+        throw inputError(kWriting, file.string(), "unknown extension, allowed is .png");
+    if (width < 1 || height < 1 || pixels.size() != 3 * static_cast<std::size_t>(width) * height)
+        throw inputError(kWriting, file.string(), "the picture does not have three bytes per pixel");
+    writeWhole(file, {width, height, nullptr, pixels.data()});
+}
+
+std::vector<unsigned char> encodeSrgb8(const Image& image) {
+    std::vector<unsigned char> bytes;
+    bytes.reserve(image.pixels.size() * 3);
+    for (const vec3& pixel : image.pixels)
+        for (int channel = 0; channel < 3; ++channel) {
+            const double x = srgbFromLinear(toneMap(pixel[channel]));
+            bytes.push_back(static_cast<unsigned char>(std::lround(255.0 * x)));
+        }
+    return bytes;
 }
 
 }  // namespace brume

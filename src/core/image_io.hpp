@@ -29,6 +29,13 @@ std::vector<vec4> readRgba(const std::vector<unsigned char>& bytes, const std::s
 /// then renamed). Throws an Error of kind Failure, of kind Input for another extension.
 void writeImage(const std::filesystem::path& file, const Image& image);
 
+/// The same with 8-bit sRGB pixels as they are, three bytes each: pictures of a screen. PNG only.
+void writeSrgb8(const std::filesystem::path& file, int width, int height,
+                const std::vector<unsigned char>& pixels);
+
+/// The pixels that a PNG of the image has, three bytes each.
+std::vector<unsigned char> encodeSrgb8(const Image& image);
+
 /// The tone curve of PNG output: linear up to 0.8, above it a shoulder 1 - 0.2/(1 + (x - 0.8)/0.2)
 /// that reaches 1 at infinity, per channel. Continuous with its first derivative.
 float toneMap(float radiance);

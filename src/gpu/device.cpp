@@ -36,6 +36,10 @@ const char* resultName(VkResult result) {
             return "VK_ERROR_TOO_MANY_OBJECTS";
         case VK_ERROR_FORMAT_NOT_SUPPORTED:
             return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+        case VK_ERROR_SURFACE_LOST_KHR:
+            return "VK_ERROR_SURFACE_LOST_KHR";
+        case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR:
+            return "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR";
         default:
             return "an unexpected Vulkan error";
     }
@@ -69,7 +73,7 @@ void requireFunctions(const VolkDeviceTable& table, const std::string& device) {
             "vkGetBufferDeviceAddress", "the feature bufferDeviceAddress");
 }
 
-VkDevice makeDevice(const InstanceFunctions& functions, const Candidate& chosen) {
+VkDevice makeDevice(const InstanceFunctions& functions, const Candidate& chosen, bool canPresent) {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -78,6 +82,7 @@ VkDevice makeDevice(const InstanceFunctions& functions, const Candidate& chosen)
     queue.pQueuePriorities = &priority;
     std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     if (chosen.hasAtomicFloat) extensions.push_back(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
+    if (canPresent) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     FeatureChain chain(chosen.hasAtomicFloat);
     enableFeatures(chain, chosen.features);
     VkDeviceCreateInfo info{};
@@ -182,7 +187,7 @@ void Device::createDevice(const DeviceOptions& options) {
     mQueueFamily = chosen.queueFamily;
     mInfo = chosen.info;
     mFeatures = chosen.features;
-    mDevice = makeDevice(*mFunctions, chosen);
+    mDevice = makeDevice(*mFunctions, chosen, !options.windowExtensions.empty());
 }
 
 void Device::initialize(const std::filesystem::path& cacheFile) {

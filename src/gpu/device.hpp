@@ -29,6 +29,9 @@ struct DeviceOptions {
     bool validate = false;                    ///< load the Khronos validation layer
     bool synchronizationValidation = false;   ///< with validate: find missing barriers as well
     std::filesystem::path pipelineCacheFile;  ///< read now, written on destruction; empty: none
+    /// For a device that shows images in windows (Swapchain): the instance extensions of the window
+    /// system. Empty: none is shown.
+    std::vector<std::string> windowExtensions;
 };
 
 /// Features beyond the required ones; Device::create() enables each one that the device has.

@@ -309,15 +309,22 @@ VkInstance makeInstance(PFN_vkGetInstanceProcAddr loader, const DeviceOptions& o
     hasDebugUtils = hasInstanceExtension(loader, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
                     (options.validate && hasInstanceExtension(loader, kValidationLayer,
                                                               VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
-    const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (hasDebugUtils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    for (const std::string& name : options.windowExtensions) {
+        if (!hasInstanceExtension(loader, nullptr, name.c_str()))
+            throw failure(kDoing, "instance",
+                          fmt::format("the Vulkan loader has no extension {} for windows", name));
+        extensions.push_back(name.c_str());
+    }
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pNext = options.validate ? &validation : nullptr;
     info.pApplicationInfo = &application;
     info.enabledLayerCount = options.validate ? 1 : 0;
     info.ppEnabledLayerNames = &kValidationLayer;
-    info.enabledExtensionCount = hasDebugUtils ? 1 : 0;
-    info.ppEnabledExtensionNames = &extension;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     PFN_vkCreateInstance create = nullptr;
     loadInto(create, loader, VK_NULL_HANDLE, "vkCreateInstance");
     VkInstance instance = VK_NULL_HANDLE;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods listed in this folder's CMakeLists, by name.
 #include <core/error.hpp>
+#include <oit/layer_count.hpp>
 #include <oit/oit_method.hpp>
 
 namespace brume::oit {
@@ -27,6 +28,7 @@ std::span<const MethodInfo> listMethods() {
 
 std::unique_ptr<OitMethod> createMethod(const std::string& name, gpu::Device& device,
                                         const Inputs& inputs, const scene::Settings& settings) {
+    if (name == layer_count::kName) return layer_count::create(device, inputs, settings);
     std::string known;
     for (const Registration& method : kMethods) {
         if (method.info().name == name) return method.create(device, inputs, settings);

@@ -2,6 +2,7 @@
 #include <core/error.hpp>
 #include <frame/frame_builder.hpp>
 #include <gpu/device.hpp>
+#include <render/backdrop.hpp>
 #include <render/composer.hpp>
 #include <render/needs.hpp>
 #include <render/renderer.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace brume::render {
 namespace {
@@ -51,6 +53,7 @@ struct Renderer::Impl {
           submitter(device),
           pool(device),
           timers(device),
+          ring(device, "render.upload", 1),
           surfaced(device, submitter, prepared_, previous),
           prepared(surfaced.scene ? *surfaced.scene : prepared_),
           composer(device, prepared, options, makeView(prepared),
@@ -68,18 +71,31 @@ struct Renderer::Impl {
         }
         if (composer.hasShadows()) prepareShadows(bounds);
         composer.addMethod();
+        times = findTimes();
+        prepareMethod();
+    }
+
+    /// Room for what a frame is read back into.
+    void makeReadbacks() {
         const VkExtent2D extent = composer.scene.extent();
         const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height;
+        if (image.bytes() == 16 * pixels) return;
+        gpu::Device& device = composer.device;
         image = gpu::Buffer(device, {.name = "render.image_read",
                                      .bytes = 16 * pixels,
                                      .memory = gpu::MemoryKind::Readback});
-        if (options.triangleHashes) {
-            triangles = gpu::Buffer(device, {.name = "render.triangles", .bytes = 4 * pixels});
-            trianglesRead = gpu::Buffer(device, {.name = "render.triangles_read",
-                                                 .bytes = 4 * pixels,
-                                                 .memory = gpu::MemoryKind::Readback});
-        }
-        prepareMethod();
+        if (!options.triangleHashes) return;
+        triangles = gpu::Buffer(device, {.name = "render.triangles", .bytes = 4 * pixels});
+        trianglesRead = gpu::Buffer(device, {.name = "render.triangles_read",
+                                             .bytes = 4 * pixels,
+                                             .memory = gpu::MemoryKind::Readback});
+    }
+
+    std::vector<double> findTimes() const {
+        std::vector<double> seconds;
+        for (const scene::EffectInstance& effect : prepared.scene.effects)
+            seconds.push_back(effect.simulatedSeconds());
+        return seconds;
     }
 
     void simulate() {
@@ -95,20 +111,66 @@ struct Renderer::Impl {
 
     bool advance() {
         if (composer.shuffleSeed != 0 || surfaced.scene) return false;
-        simulate();
-        if (composer.hasShadows()) {
-            const Box3 bounds = translucentBounds();
+        const View view = makeView(prepared);
+        if (view.camera.type != composer.scene.camera().type) return false;
+        const bool isTimeNew = times != findTimes();
+        if (isTimeNew) simulate();
+        times = findTimes();
+        if (composer.shadows && isTimeNew) {
+            casterBounds = translucentBounds();
             // Lights without casters have no maps.
-            if (bounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
+            if (casterBounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
                 return false;
-            composer.shadows->fit(composer.scene.lights(), composer.scene.camera().position,
-                                  bounds);
-            composer.shadows->invalidate();
-            binCasters();
-            areMapsBuilt = false;
         }
+        // Of a camera that moves, maps that are kept need nothing but their new origin.
+        const auto keep = composer.shadowSettings.find("keep");
+        const bool areMapsKept =
+            !isTimeNew && keep != composer.shadowSettings.end() && keep->second == "true";
+        if (composer.shadows && !areMapsKept) composer.shadows->invalidate();
+        changeSize({static_cast<std::uint32_t>(view.camera.width),
+                    static_cast<std::uint32_t>(view.camera.height)});
+        changeView(view, areMapsKept);
         prepareMethod();
         return true;
+    }
+
+    void changeView(const View& view, bool areMapsKept) {
+        composer.scene.setView(view);
+        if (composer.shadows)
+            composer.shadows->fit(composer.scene.lights(), view.camera.position, casterBounds);
+        ring.beginFrame(0);
+        submitter.submitAndWait("upload view", [&](gpu::Commands& commands) {
+            composer.scene.recordView(commands, ring);
+            if (!composer.shadows) return;
+            composer.casters->recordOrigin(commands, ring, view.camera.position);
+            composer.shadows->recordMaps(commands, ring);
+            commands.fullBarrier();
+        });
+        areMapsBuilt = areMapsKept;
+        if (composer.shadows && !areMapsKept) binCasters();
+    }
+
+    /// Methods allocate by size, and some devices compile at first use: those of the last sizes are
+    /// kept.
+    void changeSize(VkExtent2D extent) {
+        const VkExtent2D old = composer.scene.extent();
+        const auto isAlike = [](VkExtent2D a, VkExtent2D b) {
+            return a.width == b.width && a.height == b.height;
+        };
+        if (isAlike(extent, old)) return;
+        const auto found =
+            std::find_if(otherSizes.begin(), otherSizes.end(),
+                         [&](const SizedMethod& other) { return isAlike(other.extent, extent); });
+        std::unique_ptr<oit::OitMethod> method;
+        if (found != otherSizes.end()) {
+            method = std::move(found->method);
+            otherSizes.erase(found);
+        }
+        constexpr std::size_t kKept = 2;
+        if (otherSizes.size() == kKept) otherSizes.erase(otherSizes.begin());
+        otherSizes.push_back({old, std::exchange(composer.method, std::move(method))});
+        composer.scene.setView(makeView(prepared));
+        if (!composer.method) composer.addMethod();
     }
 
     Box3 translucentBounds() {
@@ -128,13 +190,14 @@ struct Renderer::Impl {
     }
 
     void prepareShadows(const Box3& bounds) {
+        casterBounds = bounds;
         composer.addShadows(bounds);
         submitter.submitAndWait("upload casters", [&](gpu::Commands& commands) {
             composer.casters->recordContent(commands);
         });
         binCasters();
         composer.scene.setShadows(composer.shadows->addresses(), composer.shadows->sharesAddress());
-        gpu::UploadRing ring(composer.device, "render.upload", 1);
+        ring.beginFrame(0);
         submitter.submitAndWait("upload lights", [&](gpu::Commands& commands) {
             composer.scene.recordView(commands, ring);
         });
@@ -160,9 +223,15 @@ struct Renderer::Impl {
         areMapsBuilt = composer.areShadowsReady;
     }
 
-    void declareFrame(frame::FrameBuilder& frame) {
+    oit::Inputs declareImage(frame::FrameBuilder& frame) {
         oit::Inputs inputs = declareInputs(frame);
         composer.method->declare(frame, inputs);
+        return inputs;
+    }
+
+    void declareFrame(frame::FrameBuilder& frame) {
+        makeReadbacks();
+        const oit::Inputs inputs = declareImage(frame);
         if (options.triangleHashes) {
             composer.opaque.declareTriangles(frame, composer.scene, inputs, triangles);
             frame.addReadback("render.triangles_read", frame.importBuffer(triangles),
@@ -170,6 +239,20 @@ struct Renderer::Impl {
         }
         frame.addReadback("render.image_read", inputs.result, image);
     }
+
+    void declareShownFrame(frame::FrameBuilder& frame, const gpu::Image& target) {
+        if (!shown || shownFormat != target.format()) {
+            shown.emplace(composer.device, target.format());
+            shownFormat = target.format();
+        }
+        const oit::Inputs inputs = declareImage(frame);
+        const frame::ImageRef ref = frame.importImage(target);
+        shown->declareComposite(frame, inputs, ref);
+        frame.finishAs(ref, frame::Access::FragmentSample);
+    }
+
+    /// Executes the frame; what it cost and counted.
+    Result run(frame::FrameBuilder& frame);
 
     Image readImage() const {
         const auto texels = image.mappedAs<vec4>();
@@ -209,6 +292,8 @@ struct Renderer::Impl {
     std::map<std::string, std::uint64_t> bytes() const {
         std::map<std::string, std::uint64_t> kinds = composer.bytes();
         kinds["targets"] = pool.bytes();
+        for (const SizedMethod& other : otherSizes)
+            for (const auto& [kind, count] : other.method->bytes()) kinds["otherSizes"] += count;
         std::uint64_t total = 0;
         for (const auto& [kind, count] : kinds) total += count;
         kinds["total"] = total;
@@ -217,16 +302,27 @@ struct Renderer::Impl {
         return kinds;
     }
 
+    struct SizedMethod {
+        VkExtent2D extent;
+        std::unique_ptr<oit::OitMethod> method;
+    };
+
     Options options;
     Log log;
     gpu::Submitter submitter;
     frame::ResourcePool pool;
     gpu::TimerPool timers;
+    gpu::UploadRing ring;
     SurfacedScene surfaced;
     const PreparedScene& prepared;
     Composer composer;
     bool areMapsBuilt = false;  // for the particles as they are
     bool isOverflowKnown = false;
+    Box3 casterBounds;  // what casts shadows and lets light through
+    std::vector<double> times;  // of the effects, own seconds
+    std::vector<SizedMethod> otherSizes;  // oldest first
+    std::optional<Backdrop> shown;
+    VkFormat shownFormat = VK_FORMAT_UNDEFINED;
     gpu::Buffer image, triangles, trianglesRead;
 };
 
@@ -236,17 +332,13 @@ Renderer::Renderer(gpu::Device& device, const PreparedScene& scene, const Option
 
 Renderer::~Renderer() = default;
 
-Result Renderer::renderFrame() {
-    frame::FrameBuilder frame(mImpl->pool);
-    mImpl->declareFrame(frame);
-    mImpl->submitter.submitAndWait("frame", [&](gpu::Commands& commands) {
-        mImpl->timers.reset(commands);
-        frame.execute(commands, &mImpl->timers);
+Result Renderer::Impl::run(frame::FrameBuilder& frame) {
+    submitter.submitAndWait("frame", [&](gpu::Commands& commands) {
+        timers.reset(commands);
+        frame.execute(commands, &timers);
     });
     Result result;
-    result.image = mImpl->readImage();
-    result.triangles = mImpl->readTriangles();
-    for (const gpu::ScopeTime& scope : mImpl->timers.read()) {
+    for (const gpu::ScopeTime& scope : timers.read()) {
         const auto same = std::find_if(result.passes.begin(), result.passes.end(),
                                        [&](const PassTime& p) { return p.name == scope.name; });
         if (same != result.passes.end())
@@ -254,20 +346,36 @@ Result Renderer::renderFrame() {
         else
             result.passes.push_back({scope.name, scope.timeMs});
     }
-    // The frame proper: neither the comparison's pass nor the copies to the host.
+    // The frame proper: neither the comparison's pass nor what takes the image away.
     for (const PassTime& pass : result.passes)
-        if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read"))
+        if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read") &&
+            pass.name != "render.composite")
             result.timeMs += pass.timeMs;
-    result.bytes = mImpl->bytes();
-    result.counters = mImpl->composer.method->counters();
-    mImpl->countParticles(result.counters);
-    result.errorBound = mImpl->composer.method->errorBound();
+    result.bytes = bytes();
+    result.counters = composer.method->counters();
+    countParticles(result.counters);
+    result.errorBound = composer.method->errorBound();
     if (result.counters["exhausted"] > 0)
-        mImpl->log.warning(
+        log.warning(
             fmt::format("rendering: {}: {} pixels reached this device's limit of loop iterations "
                         "and are not exact",
-                        mImpl->options.method, result.counters["exhausted"]));
+                        options.method, result.counters["exhausted"]));
     return result;
+}
+
+Result Renderer::renderFrame() {
+    frame::FrameBuilder frame(mImpl->pool);
+    mImpl->declareFrame(frame);
+    Result result = mImpl->run(frame);
+    result.image = mImpl->readImage();
+    result.triangles = mImpl->readTriangles();
+    return result;
+}
+
+Result Renderer::drawFrame(const gpu::Image& target) {
+    frame::FrameBuilder frame(mImpl->pool);
+    mImpl->declareShownFrame(frame, target);
+    return mImpl->run(frame);
 }
 
 EffectContents Renderer::readEffects() const {

@@ -20,7 +20,8 @@
 
 namespace brume::gpu {
 class Device;
-}
+class Image;
+}  // namespace brume::gpu
 
 namespace brume::render {
 
@@ -94,7 +95,12 @@ class Renderer {
     /// Particles as simulated on the device, read back: for the reference.
     EffectContents readEffects() const;
 
-    /// Goes on to the new times of the scene's effects, of which nothing else has changed. False
+    /// The same, but the image goes to `target` instead of the result: as large as the scene's
+    /// (times supersample), of any float colour format; it is left to be sampled.
+    Result drawFrame(const gpu::Image& target);
+
+    /// Goes on to what the scene has become: the times of its effects, the camera, the size of the
+    /// image; nothing else has changed. What is made for a size is kept for a few of them. False
     /// where that takes a new renderer, which takeEffects() helps.
     bool advance();
 

@@ -30,6 +30,8 @@ struct Camera {
     double height = 1;                 ///< orthographic: world height of the image
     double near =
         0.01;  ///< surfaces nearer than this view depth are not seen; media start at the camera
+
+    bool operator==(const Camera&) const = default;
 };
 
 struct ImageSettings {

@@ -67,7 +67,7 @@ TEST_F(CommandLine, WrongUsage_IsOneLineAndCodeTwo) {
              {"compare", "only_one.png"},
              {"list", "colours"},
              {"list", "scenes", "--markdown"},
-             {"view", "scene.json"}})
+             {"watch", "scene.json"}})
         expectUsageError(runBrume(arguments));
 }
 
