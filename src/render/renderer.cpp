@@ -116,6 +116,9 @@ struct Renderer::Impl {
         const bool isTimeNew = times != findTimes();
         if (isTimeNew) simulate();
         times = findTimes();
+        changeSize({static_cast<std::uint32_t>(view.camera.width),
+                    static_cast<std::uint32_t>(view.camera.height)});
+        composer.scene.setView(view);
         if (composer.shadows && isTimeNew) {
             casterBounds = translucentBounds();
             // Lights without casters have no maps.
@@ -127,15 +130,12 @@ struct Renderer::Impl {
         const bool areMapsKept =
             !isTimeNew && keep != composer.shadowSettings.end() && keep->second == "true";
         if (composer.shadows && !areMapsKept) composer.shadows->invalidate();
-        changeSize({static_cast<std::uint32_t>(view.camera.width),
-                    static_cast<std::uint32_t>(view.camera.height)});
-        changeView(view, areMapsKept);
+        uploadView(view, areMapsKept);
         prepareMethod();
         return true;
     }
 
-    void changeView(const View& view, bool areMapsKept) {
-        composer.scene.setView(view);
+    void uploadView(const View& view, bool areMapsKept) {
         if (composer.shadows)
             composer.shadows->fit(composer.scene.lights(), view.camera.position, casterBounds);
         ring.beginFrame(0);

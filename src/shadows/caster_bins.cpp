@@ -173,25 +173,32 @@ void CasterBins::allocate(shader::ShadowMap& map) {
 
 void CasterBins::declareLengths(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
                                 frame::BufferRef spheres) {
+    makeStartsRead();
     declare(frame, mapBuffer, spheres);
-    for (Set& set : mSets) {
+    if (!mIsReserved) declareStartsRead(frame);
+}
+
+void CasterBins::makeStartsRead() {
+    for (Set& set : mSets)
         set.startsRead = {*mDevice,
                           {.name = "shadow.bins.starts_read",
                            .bytes = set.starts.bytes(),
                            .memory = gpu::MemoryKind::Readback}};
+}
+
+void CasterBins::declareStartsRead(frame::FrameBuilder& frame) {
+    for (Set& set : mSets)
         frame.addReadback("shadow.bins_read", frame.importBuffer(set.starts), set.startsRead);
-    }
 }
 
 ListLengths CasterBins::longestLists() const {
-    constexpr std::uint32_t kGuess = 1024;
     const auto longest = [&](const Set& set) -> std::uint64_t {
-        if (!set.startsRead) return std::min(set.count, kGuess);
         const auto starts = set.startsRead.mappedAs<std::uint32_t>();
         std::uint32_t most = 0;
+        // What another frame is writing may be torn.
         for (std::size_t tile = 0; tile < mTileCount; ++tile)
-            most = std::max(most, starts[tile + 1] - starts[tile]);
-        return most;
+            most = std::max(most, starts[tile + 1] - std::min(starts[tile], starts[tile + 1]));
+        return mIsReserved ? std::min<std::uint64_t>(set.count, most + most / 2 + 64) : most;
     };
     return {longest(mSets[0]), longest(mSets[1])};
 }
@@ -201,6 +208,11 @@ void CasterBins::reserve(shader::ShadowMap& map, std::uint32_t pairs) {
     for (Set& set : mSets) {
         setRoom(set, set.count > 0 ? pairs : 0);
         set.total.mappedAs<std::uint32_t>()[0] = set.pairCount;  // nothing is known yet
+    }
+    makeStartsRead();
+    for (Set& set : mSets) {
+        const auto starts = set.startsRead.mappedAs<std::uint32_t>();
+        std::fill(starts.begin(), starts.end(), 0u);
     }
     setAddresses(map);
 }
@@ -259,7 +271,9 @@ void CasterBins::declare(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffe
             recordPairs(commands, set, mapBuffer.deviceAddress());
         }
     });
-    if (mIsReserved) declareTotals(frame);
+    if (!mIsReserved) return;
+    declareTotals(frame);
+    declareStartsRead(frame);
 }
 
 void CasterBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {

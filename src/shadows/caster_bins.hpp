@@ -36,7 +36,7 @@ class CasterBins {
     /// Adds declare() and reads the lists' lengths back: after that frame longestLists() are known.
     void declareLengths(frame::FrameBuilder& frame, const gpu::Buffer& mapBuffer,
                         frame::BufferRef spheres);
-    /// After reserve() a guess: nobody waits to know.
+    /// After reserve() those of the newest finished frame, and half as much again.
     ListLengths longestLists() const;
     /// uint per texel of the map, for passes in rounds.
     const gpu::Buffer& progress() const { return mProgress; }
@@ -66,6 +66,8 @@ class CasterBins {
     void recordCount(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
     void recordPairs(gpu::Commands& commands, const Set& set, VkDeviceAddress map) const;
     void declareTotals(frame::FrameBuilder& frame);
+    void makeStartsRead();
+    void declareStartsRead(frame::FrameBuilder& frame);
     void setRoom(Set& set, std::uint32_t pairs);
     void setAddresses(shader::ShadowMap& map) const;
     std::uint32_t pairsToSort(const Set& set) const;

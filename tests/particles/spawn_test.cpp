@@ -118,7 +118,8 @@ TEST(Spawn, InstancesSeedsAndNeighbours_AreUncorrelated) {
     for (std::vector<double>& s : series) {  // mean 0, variance 1
         double mean = 0, square = 0;
         for (const double v : s) mean += v / kCount;
-        for (double& v : s) square += (v -= mean) * v / kCount;
+        for (double& v : s) v -= mean;
+        for (const double v : s) square += v * v / kCount;
         for (double& v : s) v /= std::sqrt(square);
     }
     // 25 series, each with all others and with all (itself included) one and seven births later:
@@ -126,7 +127,7 @@ TEST(Spawn, InstancesSeedsAndNeighbours_AreUncorrelated) {
     const auto z = [&](std::size_t a, std::size_t b, std::uint32_t shift) {
         double sum = 0;
         for (std::uint32_t i = 0; i + shift < kCount; ++i) sum += series[a][i] * series[b][i + shift];
-        return sum / std::sqrt(double{kCount - shift});
+        return sum / std::sqrt(static_cast<double>(kCount - shift));
     };
     for (std::size_t a = 0; a < series.size(); ++a)
         for (std::size_t b = 0; b < series.size(); ++b) {
