@@ -23,6 +23,13 @@ VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
+struct Push {
+    float clipFromWorld[16];
+    float angle;
+};
+
+}  // namespace
+
 void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
              VkImageLayout to) {
     VkImageMemoryBarrier2 info{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -39,13 +46,6 @@ void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
     dependency.pImageMemoryBarriers = &info;
     vkCmdPipelineBarrier2(commands, &dependency);
 }
-
-struct Push {
-    float clipFromWorld[16];
-    float angle;
-};
-
-}  // namespace
 
 Renderer::Renderer(std::uint32_t width_, std::uint32_t height_, bool validate,
                    const std::vector<const char*>& windowExtensions)

@@ -19,6 +19,10 @@ struct Image {
     VkFormat format = VK_FORMAT_UNDEFINED;
 };
 
+/// Records the change of an image's layout, ordered after all before and before all that follows.
+void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
+             VkImageLayout to);
+
 class Renderer {
   public:
     /// `validate`: with the Khronos validation layer and synchronization validation.

@@ -14,22 +14,6 @@ void check(VkResult result, const char* doing) {
         throw std::runtime_error(std::string(doing) + ": VkResult " + std::to_string(result));
 }
 
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = 1;
-    dependency.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 VkSemaphore createSemaphore(const Renderer& renderer) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
@@ -74,14 +58,13 @@ void Window::attach(const Renderer& renderer) {
 
 void Window::createSwapchain(const Renderer& renderer) {
     VkSurfaceCapabilitiesKHR capabilities{};
-    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(renderer.physicalDevice, mSurface,
-                                                    &capabilities),
-          "reading surface");
+    check(
+        vkGetPhysicalDeviceSurfaceCapabilitiesKHR(renderer.physicalDevice, mSurface, &capabilities),
+        "reading surface");
     std::uint32_t count = 0;
     vkGetPhysicalDeviceSurfaceFormatsKHR(renderer.physicalDevice, mSurface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    vkGetPhysicalDeviceSurfaceFormatsKHR(renderer.physicalDevice, mSurface, &count,
-                                         formats.data());
+    vkGetPhysicalDeviceSurfaceFormatsKHR(renderer.physicalDevice, mSurface, &count, formats.data());
     // Colours are sRGB on both sides of the copy.
     const auto isSrgb = [](const VkSurfaceFormatKHR& format) {
         return format.format == VK_FORMAT_B8G8R8A8_SRGB || format.format == VK_FORMAT_R8G8B8A8_SRGB;
@@ -100,8 +83,7 @@ void Window::createSwapchain(const Renderer& renderer) {
     info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
     info.clipped = VK_TRUE;
-    check(vkCreateSwapchainKHR(renderer.device, &info, nullptr, &mSwapchain),
-          "creating swapchain");
+    check(vkCreateSwapchainKHR(renderer.device, &info, nullptr, &mSwapchain), "creating swapchain");
     vkGetSwapchainImagesKHR(renderer.device, mSwapchain, &count, nullptr);
     mImages.resize(count);
     check(vkGetSwapchainImagesKHR(renderer.device, mSwapchain, &count, mImages.data()),
@@ -130,10 +112,10 @@ void Window::present(Renderer& renderer, VkCommandBuffer commands) {
     check(vkAcquireNextImageKHR(renderer.device, mSwapchain, UINT64_MAX, acquired, VK_NULL_HANDLE,
                                 &index),
           "acquiring image");
-    transition(commands, renderer.color.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    transition(commands, mImages[index], VK_IMAGE_LAYOUT_UNDEFINED,
-               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    barrier(commands, renderer.color.image, VK_IMAGE_ASPECT_COLOR_BIT,
+            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    barrier(commands, mImages[index], VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkImageBlit region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.srcOffsets[1] = region.dstOffsets[1] = {static_cast<std::int32_t>(renderer.width),
@@ -141,8 +123,8 @@ void Window::present(Renderer& renderer, VkCommandBuffer commands) {
     vkCmdBlitImage(commands, renderer.color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    mImages[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
                    VK_FILTER_NEAREST);
-    transition(commands, mImages[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-               VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    barrier(commands, mImages[index], VK_IMAGE_ASPECT_COLOR_BIT,
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     renderer.endFrame(acquired, mDrawn[index]);
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
