@@ -131,8 +131,27 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
         const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
         for (std::uint32_t k = 0; k < simulation.instanceCount(); ++k)
             simulation.moveTo(k, mPrepared->scene.effects[mRoots[i][k]].worldFromEffect, time);
+        recordSceneDepth(commands, i);
         simulation.recordAdvanceTo(commands, time, maxTicks);
     }
+}
+
+bool EffectParticles::wantsSceneDepth() const {
+    return std::any_of(mSimulations.begin(), mSimulations.end(),
+                       [](const auto& simulation) { return simulation->wantsSceneDepth(); });
+}
+
+void EffectParticles::setSceneDepth(const std::optional<particles::SceneDepth>& depth) {
+    mSceneDepth = depth;
+    for (const auto& simulation : mSimulations) simulation->forgetSceneDepth();
+}
+
+void EffectParticles::recordSceneDepth(gpu::Commands& commands, std::size_t simulation) {
+    if (!mSceneDepth || !mSimulations[simulation]->wantsSceneDepth()) return;
+    std::vector<dmat4> placed;
+    for (const std::size_t root : mRoots[simulation])
+        placed.push_back(mPrepared->scene.effects[root].placed());
+    mSimulations[simulation]->recordSceneDepth(commands, *mSceneDepth, placed);
 }
 
 void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
@@ -213,6 +232,8 @@ particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation
 
 void EffectParticles::writeCheckpoints(gpu::Submitter& submitter,
                                        const std::filesystem::path& folder, int frame) const {
+    for (const auto& simulation : mSimulations)
+        particles::requireReplayable(simulation->effects(), "writing checkpoints");
     for (std::size_t s = 0; s < mSimulations.size(); ++s)
         for (std::size_t i = 0; i < mRoots[s].size(); ++i)
             particles::writeCheckpoint(
