@@ -94,6 +94,7 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                           std::span<const std::uint32_t> fragment,
                           const std::vector<gpu::Binding>& bindings) {
         const bool hasDepth = desc.depthFormat != VK_FORMAT_UNDEFINED;
+        const bool isTested = hasDepth && desc.depthUse != DepthUse::Idle;
         return gpu::GraphicsPipeline(
             device, {.name = desc.name + suffix,
                      .vertexSpirv = vertex,
@@ -104,9 +105,9 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                      .specialization = constants,
                      .constants = lightingConstants(inputs.needs),
                      .colors = desc.colors,
-                     .depthFormat = hasDepth ? desc.depthFormat : desc.idleDepthFormat,
-                     .depthTest = hasDepth,
-                     .depthWrite = hasDepth});
+                     .depthFormat = desc.depthFormat,
+                     .depthTest = isTested,
+                     .depthWrite = hasDepth && desc.depthUse == DepthUse::TestAndWrite});
     };
     if ((kinds & kLayersMedia) != 0 && (inputs.needs.spheres || inputs.needs.boxes))
         mMedia = make("_media", spv::oit_layers_media_vert, desc.shaders.media, mediaBindings());
@@ -204,7 +205,8 @@ OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Input
              .shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
                          spv::oit_unordered_solid_frag},
              .colors = {overTarget(inputs.callers)},
-             .idleDepthFormat = inputs.callers.depth}) {}
+             .depthFormat = inputs.callers.depth,
+             .depthUse = DepthUse::Idle}) {}
 
 void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                          frame::BufferRef order) const {
@@ -247,7 +249,7 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
              .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, {}}}}};
 }
 
-void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
                     const std::function<void(gpu::Commands&)>& push) {
@@ -265,6 +267,7 @@ void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std:
         if (push) push(commands);
         commands.draw(3);
     });
+    return pass;
 }
 
 }  // namespace brume::oit

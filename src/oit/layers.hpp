@@ -42,6 +42,13 @@ struct LayerShaders {
     std::span<const std::uint32_t> media, surface, solid;
 };
 
+/// What layers do with an attached depth.
+enum class DepthUse {
+    Idle,         ///< nothing
+    Test,         ///< where it is 1 none is drawn, where it is 0 all are
+    TestAndWrite  ///< the nearest stays
+};
+
 struct LayerPassDesc {
     std::string name;  ///< e.g. "oit.weighted.store"
     LayerShaders shaders;
@@ -50,8 +57,8 @@ struct LayerPassDesc {
     std::vector<gpu::ColorTarget> colors;
     std::uint32_t scale = 1;  ///< pixels of the image per edge of a texel of the targets
     bool drawsSolidFaces = false;  ///< surface shaders want the faces of solids as well
-    VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: layers write and test their depth
-    VkFormat idleDepthFormat = VK_FORMAT_UNDEFINED;  ///< set: attached, neither tested nor written
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: a depth is attached
+    DepthUse depthUse = DepthUse::TestAndWrite;
 };
 
 /// How a method uses one drawing of its layers.
@@ -119,7 +126,7 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
 
 /// Declares and records such a pass: reads `images` (binding, image) and draws. `push` (may be
 /// empty) sets the push constants.
-void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
                     const std::function<void(gpu::Commands&)>& push = {});
