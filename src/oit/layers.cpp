@@ -4,6 +4,7 @@
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/layers/layers.h>
+#include <shaders/oit/upsample/upsample.h>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/common/screen.vert.hpp>
 #include <spv/oit/layers/media.vert.hpp>
@@ -11,6 +12,7 @@
 #include <spv/oit/unordered/media.frag.hpp>
 #include <spv/oit/unordered/solid.frag.hpp>
 #include <spv/oit/unordered/surface.frag.hpp>
+#include <spv/oit/upsample/over.frag.hpp>
 
 namespace brume::oit {
 namespace {
@@ -197,16 +199,64 @@ gpu::ColorTarget overTarget(const CallersRendering& callers) {
 
 }  // namespace
 
-OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs)
-    : mName(name),
-      mSolids(device, name, inputs),
-      mPass(device, inputs,
-            {.name = name + ".store",
-             .shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
-                         spv::oit_unordered_solid_frag},
-             .colors = {overTarget(inputs.callers)},
-             .depthFormat = inputs.callers.depth,
-             .depthUse = DepthUse::Idle}) {}
+std::uint32_t readLowResolution(scene::SettingsReader& reader) {
+    return static_cast<std::uint32_t>(
+        std::stoul(reader.choice(std::string(kLowResolution.name), "1", {"1", "2", "4"})));
+}
+
+VkExtent2D lowExtent(const Inputs& inputs, std::uint32_t lowResolution) {
+    return {(inputs.extent.width + lowResolution - 1) / lowResolution,
+            (inputs.extent.height + lowResolution - 1) / lowResolution};
+}
+
+LayerPassDesc OverLayers::describePass(const char* suffix, const CallersRendering& callers) const {
+    LayerPassDesc desc;
+    desc.name = mName + suffix;
+    desc.shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
+                    spv::oit_unordered_solid_frag};
+    desc.colors = {overTarget(callers)};
+    desc.depthFormat = callers.depth;
+    desc.depthUse = DepthUse::Idle;
+    return desc;
+}
+
+OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs,
+                       std::uint32_t lowResolution)
+    : mName(name), mLowResolution(lowResolution), mSolids(device, name, inputs) {
+    const LayerPassDesc store = describePass(".store", inputs.callers);
+    mPass = LayerPass(device, inputs, store, lowResolution > 1 ? kLayersSurfaces : kLayersAll);
+    if (lowResolution == 1) return;
+    LayerPassDesc low = describePass(".store_low", {});
+    low.scale = lowResolution;
+    mLow = LayerPass(device, inputs, low, kLayersMedia);
+    mUpsample = {device,
+                 {.name = name + ".upsample",
+                  .vertexSpirv = spv::common_screen_vert,
+                  .fragmentSpirv = spv::oit_upsample_over_frag,
+                  .bindings = {kOpaqueT, {shader::kBindingLowMedia, BindingType::SampledImage}},
+                  .specialization = {lowResolution},
+                  .colors = store.colors,
+                  .depthFormat = store.depthFormat}};
+}
+
+frame::ImageRef OverLayers::declareLow(frame::FrameBuilder& frame, const Inputs& inputs,
+                                       frame::BufferRef order) const {
+    if (mLowResolution == 1) return {};
+    const VkExtent2D extent = lowExtent(inputs, mLowResolution);
+    const frame::ImageRef low = frame.createImage({.name = mName + ".low",
+                                                   .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                   .width = extent.width,
+                                                   .height = extent.height,
+                                                   .usage = 0});
+    frame::PassBuilder& pass = frame.addPass(mName + ".store_low");
+    LayerPass::declareReads(pass, inputs, {}, order);
+    pass.color(low, gpu::LoadOp::Clear);
+    pass.record([this, inputs, order](gpu::Commands& commands,
+                                      const frame::PassResources& resources) {
+        mLow.record(commands, resources, inputs, {}, {.order = order});
+    });
+    return low;
+}
 
 void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                          frame::BufferRef order) const {
@@ -219,14 +269,23 @@ void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                                    resources.image(inputs.result));
             });
     const SolidTargets solids = mSolids.declare(frame, inputs);
+    const frame::ImageRef low = declareLow(frame, inputs, order);
     frame::PassBuilder& pass = frame.addPass(mName + ".store");
     LayerPass::declareReads(pass, inputs, solids, order);
+    if (low) pass.reads(low, Access::FragmentSample);
     if (inputs.callers)
         pass.insideCallersRendering();
     else
         pass.color(inputs.result, gpu::LoadOp::Load);
-    pass.record([this, inputs, solids, order](gpu::Commands& commands,
-                                              const frame::PassResources& resources) {
+    pass.record([this, inputs, solids, order, low](gpu::Commands& commands,
+                                                   const frame::PassResources& resources) {
+        if (low) {
+            commands.bindGraphics(mUpsample);
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingLowMedia, resources.image(low), *inputs.texelSampler);
+            commands.draw(3);
+        }
         mPass.record(commands, resources, inputs, solids, {.order = order});
     });
 }
