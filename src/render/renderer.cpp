@@ -156,11 +156,7 @@ struct Renderer::Impl {
 
     bool advance() {
         if (composer.shuffleSeed != 0) return false;
-        if (surfaced.scene) {
-            // The casters of shadow maps are uploaded once.
-            if (composer.shadows) return false;
-            surfaced.follow(given);
-        }
+        if (surfaced.scene) surfaced.follow(given);
         const View view = makeView(prepared);
         if (view.camera.type != composer.scene.camera().type) return false;
         const bool isTimeNew = times != findTimes();
@@ -172,6 +168,11 @@ struct Renderer::Impl {
         changeSize({static_cast<std::uint32_t>(view.camera.width),
                     static_cast<std::uint32_t>(view.camera.height)});
         composer.scene.setView(view);
+        if (surfaced.scene && composer.shadows) {
+            remakeShadows();
+            prepareMethod();
+            return true;
+        }
         if (composer.shadows && areParticlesNew) {
             casterBounds = translucentBounds();
             // Lights without casters have no maps.
@@ -197,6 +198,13 @@ struct Renderer::Impl {
             composer.scene.recordMeshes(commands);
         });
         return true;
+    }
+
+    /// The triangles that cast shadows are others now.
+    void remakeShadows() {
+        composer.areShadowsReady = false;
+        areMapsBuilt = false;
+        prepareShadows(translucentBounds());
     }
 
     /// Whether particles look otherwise from another distance.

@@ -29,24 +29,31 @@ class Advance : public RenderTest {
 };
 
 TEST_F(Advance, Billboards_AreMadeAnewInTheSameRenderer) {
-    TestScene s(32, 32);
-    s.addDaylight();
-    scene::Effect effect = makeCloud(200);
-    effect.surface = scene::Surface{.type = scene::SurfaceType::Billboard};
-    const std::uint32_t material = s.addMaterial(particles::makeSurfaceMaterial(
-        makeThin(0.8, dvec3(0.5, 0.6, 0.7), dvec3(0.3, 0.2, 0.1)), effect));
-    s.scene.effects.push_back({.effect = effect, .material = material, .isPrepared = true});
-    s.scene.effects[0].time = 0.2;
-    render::Renderer renderer = makeRenderer(s);
-    std::uint64_t last = computeHash(renderer.renderFrame().image);
-    for (const double time : {0.4, 3.0, 0.3}) {  // more of them, and fewer again
-        s.scene.effects[0].time = time;
-        s.scene.camera.position += dvec3(0.3, 0.1, 0);
-        ASSERT_TRUE(renderer.advance()) << time;
-        const std::uint64_t hash = computeHash(renderer.renderFrame().image);
-        EXPECT_EQ(hash, computeHash(makeRenderer(s).renderFrame().image)) << time;
-        EXPECT_NE(hash, last);
-        last = hash;
+    for (const char* shadow : {"none", "exact"}) {
+        SCOPED_TRACE(shadow);
+        TestScene s(32, 32);
+        s.addDaylight();
+        for (scene::Light& light : s.scene.lights)
+            if (light.type == scene::LightType::Directional) light.shadow = shadow;
+        s.addMesh(scene::makePlane(dvec2(4)), s.addMaterial(makeOpaque(dvec3(0.5))),
+                  translation(dvec3(0, -0.8, 0)));
+        scene::Effect effect = makeCloud(200);
+        effect.surface = scene::Surface{.type = scene::SurfaceType::Billboard};
+        const std::uint32_t material = s.addMaterial(particles::makeSurfaceMaterial(
+            makeThin(0.8, dvec3(0.5, 0.6, 0.7), dvec3(0.3, 0.2, 0.1)), effect));
+        s.scene.effects.push_back({.effect = effect, .material = material, .isPrepared = true});
+        s.scene.effects[0].time = 0.2;
+        render::Renderer renderer = makeRenderer(s);
+        std::uint64_t last = computeHash(renderer.renderFrame().image);
+        for (const double time : {0.4, 3.0, 0.3}) {  // more of them, and fewer again
+            s.scene.effects[0].time = time;
+            s.scene.camera.position += dvec3(0.3, 0.1, 0);
+            ASSERT_TRUE(renderer.advance()) << time;
+            const std::uint64_t hash = computeHash(renderer.renderFrame().image);
+            EXPECT_EQ(hash, computeHash(makeRenderer(s).renderFrame().image)) << time;
+            EXPECT_NE(hash, last);
+            last = hash;
+        }
     }
 }
 
