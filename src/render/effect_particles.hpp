@@ -77,6 +77,11 @@ class EffectParticles {
     void recordSceneDepth(gpu::Commands& commands, std::size_t simulation);
     void recordAppearances(gpu::Commands& commands, const GpuScene& scene,
                            const gpu::Buffer& spheres) const;
+    /// Empties the slots that a simulation which began anew has no particles in any more.
+    static void clearLeftSlots(
+        gpu::Commands& commands, std::uint32_t slots, std::uint32_t& shown,
+        const std::vector<particles::GpuSimulation::Appearance>& appearances,
+        const gpu::Buffer& spheres);
     particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
     std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
     std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
@@ -87,6 +92,7 @@ class EffectParticles {
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
     std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
     mutable std::vector<particles::GpuSimulation::Appearance> mAppearances;  // keeps its memory
+    mutable std::vector<std::vector<std::uint32_t>> mShownSlots;  // by simulation, population
     std::optional<particles::SceneDepth> mSceneDepth;
     std::optional<particles::GpuBounds> mBounds;  // once it is asked for
 };

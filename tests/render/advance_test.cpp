@@ -57,6 +57,45 @@ TEST_F(Advance, Billboards_AreMadeAnewInTheSameRenderer) {
     }
 }
 
+// The second begins later than the first, though neither has begun when the renderer is made.
+TEST_F(Advance, InstancesWithStartsOfTheirOwn_BeginAtThem) {
+    TestScene s(24, 24);
+    s.addDaylight();
+    const std::uint32_t medium = s.addMedium(4.0, 0.5);
+    for (const double start : {1.0, 1.5})
+        s.scene.effects.push_back({.file = "/cloud.json",
+                                   .effect = makeCloud(100),
+                                   .medium = medium,
+                                   .seed = 5,
+                                   .time = 0.5,
+                                   .start = start});
+    render::Renderer renderer = makeRenderer(s);
+    for (const double time : {1.2, 1.9}) {
+        for (scene::EffectInstance& effect : s.scene.effects) effect.time = time;
+        ASSERT_TRUE(renderer.advance());
+        EXPECT_EQ(computeHash(renderer.renderFrame().image),
+                  computeHash(makeRenderer(s).renderFrame().image))
+            << time;
+    }
+}
+
+TEST_F(Advance, LoopThatBeginsAnew_LeavesNothingBehind) {
+    TestScene s(24, 24);
+    s.addDaylight();
+    scene::Effect effect = makeCloud(200);
+    effect.emitters[0].lifetime = dvec2(0.5);
+    s.scene.effects.push_back({.file = "/cloud.json", .effect = effect, .medium = s.addMedium(4.0, 0.5)});
+    s.scene.effects[0].loop = 0.6;
+    s.scene.effects[0].time = 0.58;
+    render::Renderer renderer = makeRenderer(s);
+    const auto before = renderer.readEffects().spheres.size();
+    s.scene.effects[0].time = 0.61;
+    ASSERT_TRUE(renderer.advance());
+    EXPECT_LT(renderer.readEffects().spheres.size(), before / 2);
+    EXPECT_EQ(computeHash(renderer.renderFrame().image),
+              computeHash(makeRenderer(s).renderFrame().image));
+}
+
 // Particles that are thinned out look otherwise from another distance, also to the lights.
 TEST_F(Advance, CameraAloneWithThinning_MakesKeptShadowMapsAnew) {
     TestScene s(16, 16);
