@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace brume::oit {
 namespace {
@@ -73,10 +74,11 @@ gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string
 }  // namespace
 
 PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs& needs,
-                       std::uint64_t budgetBytes, MediaBins& bins)
+                       std::uint64_t budgetBytes, MediaBins& bins, float epsilon)
     : mDevice(&device),
       mName(name),
       mBudgetBytes(budgetBytes),
+      mEpsilon(epsilon),
       mNeeds(needs),
       mBins(&bins),
       mPrefixSum(device) {
@@ -235,7 +237,9 @@ shader::ListPush PixelLists::makePush(const Band& band) const {
             .boxPairs = mBins->boxes().pairs,
             .counters = mCounters.deviceAddress(),
             .progress = mProgress.deviceAddress(),
-            .states = mRoundCount > 1 ? mStates.deviceAddress() : 0};
+            .states = mRoundCount > 1 ? mStates.deviceAddress() : 0,
+            .epsilon = mEpsilon,
+            .largestTint = mNeeds.largestTint};
 }
 
 void PixelLists::declareSurfaces(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
@@ -415,7 +419,11 @@ std::map<std::string, std::uint64_t> PixelLists::counters() {
     return {{"stored", stored},        {"surfaces", mSurfacesStored},
             {"dropped", dropped},      {"bands", mBands.size()},
             {"longestList", mLongest}, {"exhausted", counters.exhausted},
-            {"rounds", mRoundCount}};
+            {"rounds", mRoundCount},   {"stopped", counters.stopped}};
+}
+
+double PixelLists::errorBound() {
+    return std::bit_cast<float>(mCountersRead.mappedAs<shader::ListCounters>()[0].bound);
 }
 
 std::map<std::string, std::uint64_t> PixelLists::bytes() const {

@@ -16,9 +16,10 @@ class PixelLists {
   public:
     /// `name`: prefix of the passes, e.g. "oit.linked_list". `budgetBytes`: for list entries and
     /// surface records together; beyond it the tiles are rendered in bands. `bins` are the
-    /// caller's, who declares them ahead of declare().
+    /// caller's, who declares them ahead of declare(). `epsilon`: radiance that a pixel may miss where
+    /// it stops early; 0: none.
     PixelLists(gpu::Device& device, const std::string& name, const Needs& needs,
-               std::uint64_t budgetBytes, MediaBins& bins);
+               std::uint64_t budgetBytes, MediaBins& bins, float epsilon = 0);
 
     /// Which tiles have lists; at least one. Before prepare().
     void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount);
@@ -28,6 +29,8 @@ class PixelLists {
     /// Writes the pixels of its tiles. `isFirstWriter`: no pass before has written the result.
     void declare(frame::FrameBuilder& frame, const Inputs& inputs, bool isFirstWriter);
     std::map<std::string, std::uint64_t> counters();
+    /// The most that a pixel of the last finished frame misses.
+    double errorBound();
     std::map<std::string, std::uint64_t> bytes() const;
 
   private:
@@ -63,6 +66,7 @@ class PixelLists {
     gpu::Device* mDevice;
     std::string mName;
     std::uint64_t mBudgetBytes;
+    float mEpsilon;
     Needs mNeeds;
     MediaBins* mBins;
     std::uint32_t mTileCount = 0;

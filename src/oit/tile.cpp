@@ -331,7 +331,8 @@ void Tile::planTiles() {
     mListTileCount = lists.size();
     mLists.reset();
     if (lists.empty()) return;
-    mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins);
+    mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins,
+                   mSettings.epsilon);
     mLists->setTiles(lists, mTileCount);
 }
 
@@ -400,12 +401,14 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["tilesManyMix"] = mManyMix.tileCount;
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
-    counters["stopped"] = own.stopped;
+    counters["stopped"] += own.stopped;
     return counters;
 }
 
 std::optional<double> Tile::errorBound() {
-    return std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
+    const double own =
+        std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
+    return mLists ? std::max(own, mLists->errorBound()) : own;
 }
 
 std::map<std::string, std::uint64_t> Tile::bytes() const {

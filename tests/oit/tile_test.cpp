@@ -240,7 +240,28 @@ TEST_F(Tile, Bands_GiveTheSameBits) {
     EXPECT_EQ(computeHash(bands.image), computeHash(whole.image));
 }
 
-TEST_F(Tile, EarlyStop_StaysWithinTheBoundThatItReports) {
+class TileEarlyStop : public Tile {
+  protected:
+    void expectWithinBound(const TestScene& s, double mostPerEpsilon) {
+        const render::Result exact = renderTile(s);
+        EXPECT_EQ(exact.errorBound, 0.0);
+        for (const double epsilon : {1.0 / 1024, 0.2}) {
+            const render::Result result = renderTile(s, {{"epsilon", std::to_string(epsilon)}});
+            EXPECT_GT(result.counters.at("stopped"), 0u);
+            double largest = 0;
+            for (std::size_t i = 0; i < exact.image.pixels.size(); ++i) {
+                const vec3 d = glm::abs(exact.image.pixels[i] - result.image.pixels[i]);
+                largest = std::max({largest, double(d.x), double(d.y), double(d.z)});
+            }
+            EXPECT_GT(largest, 0);
+            ASSERT_TRUE(result.errorBound);
+            EXPECT_LE(largest, *result.errorBound + 1e-5) << "rounding aside";
+            EXPECT_LE(*result.errorBound, mostPerEpsilon * epsilon) << "worth knowing";
+        }
+    }
+};
+
+TEST_F(TileEarlyStop, WithoutLists_StaysWithinTheBoundThatItReports) {
     TestScene spheres = makeCloud(200, 1, Profile::Constant);
     spheres.scene.media[0].extinction = dvec3(6);
     TestScene row = makeRow(0.45);
@@ -254,23 +275,34 @@ TEST_F(Tile, EarlyStop_StaysWithinTheBoundThatItReports) {
     lamp.addLight(scene::LightType::Point, dvec3(3)).position = dvec3(-1, -2, -1.5);
     lamp.scene.lights.back().radius = 0.5;
     for (const TestScene& s : {spheres, row, volume, lamp}) {
-        const render::Result exact = renderTile(s);
-        EXPECT_EQ(exact.errorBound, 0.0);
-        EXPECT_EQ(exact.counters.at("tilesLists"), 0u);
-        for (const double epsilon : {1.0 / 1024, 0.2}) {
-            const render::Result result = renderTile(s, {{"epsilon", std::to_string(epsilon)}});
-            EXPECT_GT(result.counters.at("stopped"), 0u);
-            double largest = 0;
-            for (std::size_t i = 0; i < exact.image.pixels.size(); ++i) {
-                const vec3 d = glm::abs(exact.image.pixels[i] - result.image.pixels[i]);
-                largest = std::max({largest, double(d.x), double(d.y), double(d.z)});
-            }
-            EXPECT_GT(largest, 0);
-            ASSERT_TRUE(result.errorBound);
-            EXPECT_LE(largest, *result.errorBound + 1e-5) << "rounding aside";
-            EXPECT_LE(*result.errorBound, 100 * epsilon) << "worth knowing";
-        }
+        EXPECT_EQ(countListTiles(s), 0u);
+        expectWithinBound(s, 100);
     }
+}
+
+/// Lists stop where all that can still come is less than epsilon.
+TEST_F(TileEarlyStop, OfLists_StaysWithinEpsilon) {
+    TestScene constant = makeCloud(300, 2, Profile::Constant);
+    for (scene::Medium& medium : constant.scene.media) medium.extinction = dvec3(8);
+    constant.addPane(constant.addMaterial(makeThin(1, dvec3(0.8, 0.6, 0.9), dvec3(0.2))), 0.3);
+    TestScene smooth = makeCloud(300, 3, Profile::Smooth);
+    for (scene::Medium& medium : smooth.scene.media) medium.extinction = dvec3(10, 8, 12);
+    smooth.addLight(scene::LightType::Point, dvec3(3)).position = dvec3(-1, -2, -1.5);
+    smooth.scene.lights.back().radius = 0.5;
+    for (const TestScene& s : {constant, smooth}) {
+        EXPECT_GT(countListTiles(s), 0u);
+        expectWithinBound(s, 1.0001);
+    }
+}
+
+TEST_F(TileEarlyStop, MediaThatGlowWithoutAbsorbing_AreNeverCutOff) {
+    TestScene s = makeCloud(100, 2, Profile::Smooth);
+    s.scene.media[0].extinction = dvec3(8);
+    s.scene.media[1] = {};
+    s.scene.media[1].extinction = dvec3(0);
+    s.scene.media[1].emission = dvec3(2);
+    mMethod.settings = {{"epsilon", "0.2"}};
+    expectExact(s, "glow behind smoke");
 }
 
 TEST_F(Tile, Memory_IsFourBytesPerPairAndNothingPerPixel) {

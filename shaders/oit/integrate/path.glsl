@@ -38,9 +38,4 @@ void crossConstant(inout Path path, vec3 extinction, vec3 source, float distance
     addDepth(path, depth);
 }
 
-bool isOpaque(Path path) {
-    vec3 rest = path.surfaces * path.decay;
-    return max(rest.x, max(rest.y, rest.z)) < 1e-20;
-}
-
 #endif

@@ -109,7 +109,7 @@ void walkConstant(Real limit) {
         Real cross = kSurfaces ? surfaceDistance(surface) : Real(kFar);
         Real event = min(min(entering.x, leaving), min(cross, limit));
         crossTo(event, solidLight);
-        if (event >= limit || isOpaque(state.path)) {
+        if (event >= limit || canStop(state.path)) {
             state.stage = kStageDone;
             break;
         }

@@ -35,6 +35,8 @@ struct ListPush {
     uint64_t counters;  // ListCounters
     uint64_t progress;  // uint[pixels]: media stored already, and kUnsortedBit
     uint64_t states;    // PixelState[pixels]: where unfinished pixels go on in the next round
+    float epsilon;      // resolve: radiance that may be missing where a pixel stops early; 0: none
+    float largestTint;  // of all media
 };
 
 // Some devices silently end all loops of an invocation after 65 535 iterations (counted for eight
@@ -86,6 +88,8 @@ BRUME_CONST uint kStageLost = 4u;  // the device has ended loops by itself
 struct ListCounters {
     uint exhausted;  // pixels unfinished after the last round: the image is not exact, the host
                      // must say so
+    uint stopped;    // pixels that stopped early
+    uint bound;      // bits of the largest radiance that one of them may miss
 };
 
 struct TileTotals {
@@ -104,7 +108,7 @@ BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::ListPush) == 120);
+static_assert(sizeof(brume::shader::ListPush) == 128);
 static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
 static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif

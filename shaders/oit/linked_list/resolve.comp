@@ -59,6 +59,7 @@ Real surfaceDistance(uvec2 entry) {
     return makeReal(uintBitsToFloat(entry.x), lo);
 }
 
+#include "early_stop.glsl"
 #include "constant.glsl"
 #include "sort.glsl"
 #include "varying.glsl"
@@ -132,15 +133,18 @@ void main() {
     } else {
         beginState((UintArray(push.progress).at[index] & kUnsortedBit) != 0u);
     }
+    vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
+    allowStop(behind);
     advance(limit);
     vec3 rest = state.path.surfaces * state.path.decay;
-    vec3 radiance = state.path.radiance + rest * texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
+    vec3 radiance = state.path.radiance + rest * behind;
     imageStore(result, ivec2(pixel), vec4(radiance, 1.0));
     if (kRounds) {
         state.position = float(position);
         state.positionLo = findLo(position);
         StateArray(push.states).at[index] = state;
     }
+    if (push.epsilon > 0.0 && canStop(state.path)) countStop(state.path);
     if (state.stage != kStageDone && push.step + 1u == push.roundCount)
         atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }

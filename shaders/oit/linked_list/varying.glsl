@@ -281,7 +281,7 @@ void walkTo(OpenSet set, float last) {
         state.stepLimit = step.distance > 0.0 ? step.distance * scaleStep(error) : kFar;
         state.offset = isDone ? target : step.from;
         set.plane = isDone ? plane : set.plane;
-        if (isOpaque(state.path) || state.offset >= last) break;
+        if (canStop(state.path) || state.offset >= last) break;
     }
 }
 
@@ -307,7 +307,7 @@ void walkVarying(Real limit) {
         float last = max(float(event - position), state.offset);
         walkTo(set, min(last, state.offset + limitByLights(set)));
         bool isReached = state.offset >= last;
-        if (isOpaque(state.path) || (isReached && event >= limit)) {
+        if (canStop(state.path) || (isReached && event >= limit)) {
             state.stage = kStageDone;
             break;
         }
