@@ -154,20 +154,22 @@ void addStrip(Shape& shape, vec3 a, vec3 b, float width) {
     shape.addQuad(a - side, b - side, b + side, a + side);
 }
 
-/// A wall of stone with a round hole of radius 1.6 m and a sill of 0.35 m.
+/// A wall of stone with a round hole of radius 1.6 m, 0.35 m thick, splayed outwards.
 Shape makeWall() {
     Shape wall;
-    const float hole = 1.6f, half = 15, back = -0.35f;
+    const float hole = 1.6f, splayed = 1.85f, half = 15, back = -0.35f;
     for (int i = 0; i < 96; ++i) {
         const float a = kTurn * static_cast<float>(i) / 96,
                     b = kTurn * static_cast<float>(i + 1) / 96;
-        const auto out = [&](float t) {
+        const auto out = [&](float t, float z) {
             const vec3 d = onCircle(1, t);
-            return d * (half / std::max(std::abs(d.x), std::abs(d.y)));
+            return d * (half / std::max(std::abs(d.x), std::abs(d.y))) + vec3(0, 0, z);
         };
-        wall.addQuad(onCircle(hole, a), out(a), out(b), onCircle(hole, b));
-        wall.addQuad(onCircle(hole, a, back), onCircle(hole, a), onCircle(hole, b),
-                     onCircle(hole, b, back));
+        wall.addQuad(onCircle(hole, a), out(a, 0), out(b, 0), onCircle(hole, b));
+        wall.addQuad(out(a, back), onCircle(splayed, a, back), onCircle(splayed, b, back),
+                     out(b, back));
+        wall.addQuad(onCircle(splayed, a, back), onCircle(hole, a), onCircle(hole, b),
+                     onCircle(splayed, b, back));
     }
     return wall;
 }
@@ -369,7 +371,7 @@ void writeRocks(const std::filesystem::path& folder) {
 
 /// A cliff of 30 x 12 m in the plane z = 0 that faces +z, with a cleft in its middle.
 void writeCliff(const std::filesystem::path& folder) {
-    const Shape cliff = makeSurface(300, 150, [](float u, float v) {
+    const Shape cliff = makeSurface(170, 84, [](float u, float v) {
         const float x = 30 * (u - 0.5f), y = 12 * v - 0.5f;
         const vec3 q(x * 0.35f, y * 0.16f, 0);
         float z = 1.7f * ridges(q, 3, 4) + 0.9f * fractal(vec3(x * 0.7f, y * 0.5f, 2), 5, 7);
