@@ -205,6 +205,7 @@ TEST_P(HostParts, OffCentreProjection_ShowsThatPartOfTheWhole) {
                     { "shape": "box", "size": [0.8, 0.8, 0.8], "material": "box",
                       "transform": { "rotate": [20, 30, 0], "translate": [-0.5, -0.4, 0.6] } } ])");
     const Context context(host().contextInfo());
+    host().draw({0.2f, 0.3f, 0.4f}, 0);
     BrumeView whole = host().view();
     if (GetParam().isOrthographic) {
         double* m = whole.clipFromView;
