@@ -39,7 +39,34 @@ function(brume_shaders target)
       COMMENT "Compiling shader ${name}"
       VERBATIM)
     list(APPEND headers ${header})
+    set_property(GLOBAL APPEND PROPERTY BRUME_SHADERS "${shader}|${defines}|${name}|${symbol}")
   endforeach()
   target_sources(${target} PRIVATE ${headers})
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()
+
+# brume_shader_table(brume_view_core): a source file of `target` with every shader of the folders of shaders/ so
+# far, by the file that it is compiled from: brume::view::listShaders().
+function(brume_shader_table target)
+  get_property(shaders GLOBAL PROPERTY BRUME_SHADERS)
+  set(includes)
+  set(rows)
+  foreach(entry IN LISTS shaders)
+    string(REGEX MATCH "^([^|]*)[|]([^|]*)[|]([^|]*)[|]([^|]*)$" unused "${entry}")
+    string(APPEND includes "#include <spv/${CMAKE_MATCH_3}.hpp>\n")
+    string(APPEND rows "        {\"${CMAKE_MATCH_1}\", \"${CMAKE_MATCH_2}\", spv::${CMAKE_MATCH_4}},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/shader_table.cpp CONTENT "// Generated from the list of shaders; do not edit.
+#include <view/shader_reload.hpp>
+@includes@
+namespace brume::view {
+const std::vector<ShaderSource>& listShaders() {
+    static const std::vector<ShaderSource> shaders = {
+@rows@    };
+    return shaders;
+}
+}  // namespace brume::view
+" @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated/shader_table.cpp)
   target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()

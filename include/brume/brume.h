@@ -270,7 +270,7 @@ typedef struct BrumeView {
     uint32_t structSize; /**< set by BRUME_INIT */
     uint32_t leftHanded; /**< orthographic only: 1 if the view looks along +z */
     double viewFromWorld[16]; /**< rotation and translation */
-    /** Perspective or orthographic, symmetric; conventional, reversed and infinite depth ranges are
+    /** Perspective or orthographic, also off-centre; conventional, reversed and infinite depth ranges are
      *  told by the matrix itself. */
     double clipFromView[16];
     int32_t x; /**< left edge of the viewport in pixels of both images */

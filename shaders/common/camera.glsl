@@ -19,7 +19,8 @@ struct RealRay {
 Ray makeRay(vec2 position) {
     precise vec2 s = vec2(2.0 * position.x / float(frame.size.x) - 1.0,
                           1.0 - 2.0 * position.y / float(frame.size.y)) *
-                     vec2(frame.extentX, frame.extentY);
+                         vec2(frame.extentX, frame.extentY) +
+                     vec2(frame.centerX, frame.centerY);
     precise vec3 offset = s.x * frame.right + s.y * frame.up;
     Ray ray;
     ray.origin = frame.orthographic != 0u ? offset : vec3(0);
@@ -31,7 +32,9 @@ RealRay makeRealRay(vec2 position) {
     precise Real2 s = Real2(Real(2) * Real(position.x) / Real(frame.size.x) - Real(1),
                             Real(1) - Real(2) * Real(position.y) / Real(frame.size.y)) *
                       Real2(makeReal(frame.extentX, frame.extentXLo),
-                            makeReal(frame.extentY, frame.extentYLo));
+                            makeReal(frame.extentY, frame.extentYLo)) +
+               Real2(makeReal(frame.centerX, frame.centerXLo),
+                     makeReal(frame.centerY, frame.centerYLo));
     Real3 offset = s.x * makeReal(frame.right, frame.rightLo) + s.y * makeReal(frame.up, frame.upLo);
     Real3 forward = makeReal(frame.forward, frame.forwardLo);
     Real3 towards = forward + offset;
@@ -46,6 +49,7 @@ RealRay makeRealRay(vec2 position) {
 vec4 clipFromRelative(vec3 position) {
     vec3 view =
         vec3(dot(position, frame.right), dot(position, frame.up), dot(position, frame.forward));
+    view.xy -= vec2(frame.centerX, frame.centerY) * (frame.orthographic != 0u ? 1.0 : view.z);
     if (frame.orthographic != 0u)
         return vec4(view.x / frame.extentX, -view.y / frame.extentY,
                     (frame.far - view.z) / (frame.far - frame.near), 1.0);

@@ -14,6 +14,8 @@ struct FrameData {
                                // orthographic: m)
     vec3 up, upLo;
     float extentY, extentYLo;
+    float centerX, centerXLo;  // middle of the image on that plane, 0 where it is symmetric
+    float centerY, centerYLo;
     vec3 forward, forwardLo;
     float near;    // m, nearest view depth of triangles
     vec3 ambient;  // radiance of the ambient lights together
@@ -85,8 +87,8 @@ BRUME_CONST uint kTileSize = 8u;  // pixels per edge of a screen tile
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::FrameData) == 184);
-static_assert(offsetof(brume::shader::FrameData, size) == 124);
+static_assert(sizeof(brume::shader::FrameData) == 200);
+static_assert(offsetof(brume::shader::FrameData, size) == 140);
 static_assert(sizeof(brume::shader::LightData) == 64);
 static_assert(sizeof(brume::shader::MediumData) == 44);
 static_assert(sizeof(brume::shader::VolumeData) == 76);

@@ -24,7 +24,8 @@ const float kStillSpeed = 1e-6;
 
 /// Relative to the camera, unit in perspective; the ray begins at `start`.
 vec3 rayOf(vec2 pixel, out vec3 start) {
-    vec2 s = (2.0 * pixel / vec2(picture.size) - 1.0) * vec2(picture.extentX, -picture.extentY);
+    vec2 s = (2.0 * pixel / vec2(picture.size) - 1.0) * vec2(picture.extentX, -picture.extentY) +
+             vec2(picture.centerX, picture.centerY);
     vec3 offset = s.x * picture.right + s.y * picture.up;
     bool isParallel = picture.isOrthographic != 0u;
     start = isParallel ? offset : vec3(0);
@@ -55,8 +56,10 @@ vec3 slopeAt(ivec2 pixel, ivec2 axis) {
 bool findSurface(vec3 place, float scale, out vec3 onSurface, out vec3 normal) {
     float depth = dot(place, picture.forward);
     bool isParallel = picture.isOrthographic != 0u;
-    vec2 s = vec2(dot(place, picture.right) / picture.extentX, -dot(place, picture.up) / picture.extentY);
+    vec2 s = vec2(dot(place, picture.right), dot(place, picture.up));
     if (!isParallel) s /= max(depth, 1e-6);
+    s -= vec2(picture.centerX, picture.centerY);
+    s /= vec2(picture.extentX, -picture.extentY);
     if (!(depth > 0.0 && abs(s.x) < 1.0 && abs(s.y) < 1.0)) return false;
     ivec2 pixel = ivec2((0.5 * s + 0.5) * vec2(picture.size));
     float seen = distanceAt(pixel);

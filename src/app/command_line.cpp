@@ -163,6 +163,8 @@ void addView(CLI::App& app, Invocation& invocation) {
     command->add_option("--set", a.settings, "Setting of the method, key=value")
         ->allow_extra_args(false);
     command->add_option("--size", a.size, "WIDTHxHEIGHT of the window (default 1280x720)");
+    command->add_option("--shaders", a.shaders,
+                        "Compile and use the shaders of this folder when they change");
     command->add_option("--script", a.script, "Do what this file says, see docs/viewer.md");
     command->add_flag("--offscreen", a.isOffscreen, "Open no window; for scripts");
     addDeviceOptions(*command, a.device);

@@ -246,6 +246,18 @@ void Device::check(VkResult result, const char* doing, const std::string& object
         result);
 }
 
+void Device::replaceShader(const std::uint32_t* original, std::vector<std::uint32_t> words) {
+    if (words.empty())
+        mReplacedShaders.erase(original);
+    else
+        mReplacedShaders[original] = std::move(words);
+}
+
+std::span<const std::uint32_t> Device::currentShader(std::span<const std::uint32_t> spirv) const {
+    const auto found = mReplacedShaders.find(spirv.data());
+    return found == mReplacedShaders.end() ? spirv : std::span<const std::uint32_t>(found->second);
+}
+
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!mFunctions->setObjectName) return;
     VkDebugUtilsObjectNameInfoEXT info{};

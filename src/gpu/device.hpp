@@ -9,8 +9,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -195,6 +197,10 @@ class Device {
     /// Writes the pipeline cache now (also done by the destructor). Throws a failure Error.
     void savePipelineCache() const;
 
+    /// Pipelines made from now on use `words` instead of the embedded shader that begins at
+    /// `original`; empty: that shader again. For tools that edit shaders.
+    void replaceShader(const std::uint32_t* original, std::vector<std::uint32_t> words);
+
     // For the objects of this layer -------------------------------------------------------------
 
     /// Throws a VulkanError "<doing>: <object>: VK_ERROR_..." unless `result` is a success.
@@ -206,6 +212,8 @@ class Device {
     /// Memory for an object; refuses what does not fit, with sizes and limits in the message.
     Allocation allocate(const VkMemoryRequirements& needed, MemoryKind kind, bool hasAddress,
                         const std::string& object);
+    /// The shader, or what replaces it.
+    std::span<const std::uint32_t> currentShader(std::span<const std::uint32_t> spirv) const;
     /// What the device supports for such an image; VK_ERROR_FORMAT_NOT_SUPPORTED if nothing.
     VkResult imageLimits(const VkImageCreateInfo& info, VkImageFormatProperties& limits) const;
     /// Can images of this format be colour targets that blend?
@@ -245,6 +253,7 @@ class Device {
     MemoryHooks mMemoryHooks;
     std::uint64_t mBudgetBytes = ~std::uint64_t{0};
     std::shared_ptr<ObjectRegistry> mRegistry;
+    std::map<const std::uint32_t*, std::vector<std::uint32_t>> mReplacedShaders;
 };
 
 }  // namespace brume::gpu

@@ -55,6 +55,7 @@ class Module {
   public:
     Module(Device& device, std::span<const std::uint32_t> spirv, const std::string& name)
         : mDevice(&device) {
+        spirv = device.currentShader(spirv);
         VkShaderModuleCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
         info.codeSize = spirv.size_bytes();

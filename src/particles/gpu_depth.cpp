@@ -57,7 +57,9 @@ void GpuPopulation::recordSceneDepth(gpu::Commands& commands, const SceneDepth& 
         .forward = vec3(camera.forward),
         .isOrthographic = camera.type == scene::CameraType::Orthographic,
         .size = {static_cast<std::uint32_t>(camera.width),
-                 static_cast<std::uint32_t>(camera.height)}};
+                 static_cast<std::uint32_t>(camera.height)},
+        .centerX = static_cast<float>(camera.centerX),
+        .centerY = static_cast<float>(camera.centerY)};
     commands.updateArray<shader::DepthCollision>(mDepthCollision, {&collision, 1});
     commands.updateArray(mDepthCollision, places, sizeof collision);
 }

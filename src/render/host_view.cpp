@@ -28,14 +28,18 @@ void checkRigid(const dmat4& viewFromWorld) {
 
 void checkProjection(const dmat4& p) {
     const double scale = std::abs(p[0][0]) + std::abs(p[1][1]);
-    const double skew = std::abs(p[1][0]) + std::abs(p[0][1]) + std::abs(p[2][0]) +
-                        std::abs(p[2][1]) + std::abs(p[3][0]) + std::abs(p[3][1]);
+    // Off-centre: in perspective with depth, else everywhere the same.
+    const bool isOrthographic = p[2][3] == 0;
+    const glm::dvec4 &shift = isOrthographic ? p[3] : p[2], &other = isOrthographic ? p[2] : p[3];
+    const double skew =
+        std::abs(p[1][0]) + std::abs(p[0][1]) + std::abs(other.x) + std::abs(other.y);
     if (!(scale > 0) || p[0][0] == 0 || p[1][1] == 0 || !std::isfinite(scale))
         throw refuse("clipFromView has no field of view");
     if (!(skew <= 1e-9 * scale))
         throw refuse(
-            "clipFromView is off-centre or skewed, allowed are symmetric projections; shift the "
-            "viewport instead");
+            "clipFromView is skewed, allowed are perspective and orthographic projections");
+    if (!std::isfinite(shift.x) || !std::isfinite(shift.y))
+        throw refuse("clipFromView is shifted by what is not finite");
     if (p[2][3] != 0 && p[3][3] != 0)
         throw refuse("clipFromView is neither perspective nor orthographic");
 }
@@ -68,6 +72,10 @@ View makeView(const HostView& host, shader::BackdropPush& push) {
     camera.forward = glm::normalize(rowOf(host.viewFromWorld, 2)) * towards;
     camera.extentX = w / std::abs(p[0][0]);
     camera.extentY = w / std::abs(p[1][1]);
+    // The axis meets the image plane where the clip coordinates are those of the shift alone.
+    const dvec2 shift = isOrthographic ? dvec2(p[3]) : dvec2(p[2]) * towards;
+    camera.centerX = -shift.x / std::abs(p[0][0]);
+    camera.centerY = shift.y / std::abs(p[1][1]) * (host.height > 0 ? 1.0 : -1.0);
     camera.width = host.width;
     camera.height = std::abs(host.height);
 

@@ -11,7 +11,7 @@ namespace brume::render {
 /// As the host draws its opaque scene.
 struct HostView {
     dmat4 viewFromWorld{1};  ///< rigid
-    dmat4 clipFromView{1};   ///< perspective or orthographic, symmetric about the axis
+    dmat4 clipFromView{1};   ///< perspective or orthographic, also off-centre
     int x = 0, y = 0;  ///< viewport, pixels; a negative height turns the image over, as VkViewport
     int width = 0, height = 0;
     double minDepth = 0, maxDepth = 1;  ///< of the viewport

@@ -5,8 +5,8 @@
 namespace brume::scene {
 
 Ray CameraFrame::ray(double x, double y) const {
-    const double sx = (2.0 * x / width - 1.0) * extentX;
-    const double sy = (1.0 - 2.0 * y / height) * extentY;
+    const double sx = (2.0 * x / width - 1.0) * extentX + centerX;
+    const double sy = (1.0 - 2.0 * y / height) * extentY + centerY;
     const dvec3 offset = sx * right + sy * up;
     if (type == CameraType::Orthographic) return {position + offset, forward};
     return {position, glm::normalize(forward + offset)};

@@ -13,12 +13,13 @@ struct Ray {
 
 /// Orthonormal camera frame of an image of width x height samples.
 /// Perspective: direction = normalize(forward + sx right + sy up); orthographic: origin =
-/// position + sx right + sy up, direction = forward; with sx = (2x/width - 1) extentX,
-/// sy = (1 - 2y/height) extentY and (x, y) from the top-left corner, pixel centres at + 1/2.
+/// position + sx right + sy up, direction = forward; with sx = (2x/width - 1) extentX
+/// + centerX, sy = (1 - 2y/height) extentY + centerY and (x, y) from the top-left corner, pixel centres at + 1/2.
 struct CameraFrame {
     CameraType type = CameraType::Perspective;
     dvec3 position, right, up, forward;
     double extentX = 1, extentY = 1;  ///< half size of the image plane (perspective: at distance 1)
+    double centerX = 0, centerY = 0;  ///< where the axis does not go through the image's middle
     double near = 0.01;
     int width = 1, height = 1;
 

@@ -93,7 +93,7 @@ void Document::rebuildEffects(scene::Scene& scene) const {
         particles::compileEffect(effect);
         for (scene::EffectInstance& entry : makeEntries(scene, root, effect)) {
             const std::uint64_t text = std::hash<std::string>()(edit->text());
-            entry.key = (text ^ (entries.size() + 1) * 0x9e3779b97f4a7c15ull) | 1;
+            entry.key = (text ^ mTouches * 0xd6e8feb86659fd93ull ^ (entries.size() + 1) * 0x9e3779b97f4a7c15ull) | 1;
             entries.push_back(std::move(entry));
         }
     }
@@ -160,6 +160,11 @@ void Document::prepareKeepingVolumes(scene::Scene scene) {
     prepared.volumes = std::move(mPrepared.volumes);
     prepared.spheres = std::move(mPrepared.spheres);
     mPrepared = std::move(prepared);
+}
+
+void Document::touch() {
+    ++mTouches;  // new keys: simulations begin anew
+    applyEffects();
 }
 
 void Document::applyEffects() {

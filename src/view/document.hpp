@@ -42,6 +42,9 @@ class Document {
     /// The files of volumes that are sequences follow the frame. Throws an Error.
     void showFrame(int frame);
 
+    /// Counts as changed, effects included, because what draws it has changed. Throws an Error.
+    void touch();
+
     /// Of the scene's effects, by file.
     std::vector<std::unique_ptr<EffectEdit>>& effects() { return mEffects; }
     /// Takes over what effects() say now. Throws an input Error.
@@ -62,6 +65,7 @@ class Document {
     std::vector<std::unique_ptr<EffectEdit>> mEffects;
     FileWatch mWatch;
     int mFrame = 0;
+    std::uint64_t mTouches = 0;
     std::uint64_t mRevision = 0, mLoads = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <core/error.hpp>
 #include <core/frame_path.hpp>
 #include <core/image_io.hpp>
+#include <view/programs.hpp>
 #include <view/recorder.hpp>
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -54,13 +54,7 @@ bool writeAll(int pipe, const std::vector<unsigned char>& bytes) {
 
 }  // namespace
 
-bool hasFfmpeg() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');)
-        if (::access((folder + "/ffmpeg").c_str(), X_OK) == 0) return true;
-    return false;
-}
+bool hasFfmpeg() { return hasProgram("ffmpeg"); }
 
 Recorder::Recorder(std::filesystem::path file, double frameRate)
     : mFile(std::move(file)), mFrameRate(frameRate) {

@@ -90,6 +90,7 @@ void Stage::pollFiles(double seconds) {
     mSincePoll += seconds;
     if (mSincePoll < kFilePeriod) return;
     mSincePoll = 0;
+    if (mShaders) attempt([&] { pollShaders(); });
     const std::optional<Document::News> news = document.pollFiles();
     if (!news) return;
     say(news->text, news->isError);
@@ -97,6 +98,18 @@ void Stage::pollFiles(double seconds) {
     mLoads = document.loads();
     preview.forget();
     timeline.setEnd(std::max(timeline.end(), document.homeTime()));
+}
+
+void Stage::watchShaders(const std::filesystem::path& folder) {
+    mShaders = std::make_unique<ShaderReload>(folder);
+}
+
+void Stage::pollShaders() {
+    const int count = mShaders->poll(*mDevice);
+    if (count == 0) return;
+    document.touch();
+    preview.forget();
+    say(fmt::format("compiled {} shader{}", count, count == 1 ? "" : "s"));
 }
 
 void Stage::updatePanes(ivec2 pixels) {

@@ -11,6 +11,7 @@
 #include <view/pass_history.hpp>
 #include <view/preview_scale.hpp>
 #include <view/recorder.hpp>
+#include <view/shader_reload.hpp>
 #include <view/timeline.hpp>
 
 #include <array>
@@ -90,6 +91,9 @@ class Stage {
         }
     }
 
+    /// From now on shaders of that folder are compiled and used when they change. Throws an Error.
+    void watchShaders(const std::filesystem::path& folder);
+
     /// The pictures as `brume render` would write them at the present size: .png or .exr. The
     /// second one gets "-b" before its extension.
     void saveScreenshot(const std::filesystem::path& file);
@@ -107,6 +111,7 @@ class Stage {
     std::size_t paneCount() const { return isSplit ? 2 : 1; }
     PaneView makeView(ivec2 pixels, int divisor) const;
     void pollFiles(double seconds);
+    void pollShaders();
     void updatePanes(ivec2 pixels);
     void recordFrame();
     void updateComparison(ivec2 pixels);
@@ -140,6 +145,7 @@ class Stage {
     BackgroundReference mReference;
     ComparisonState mComparison;
 
+    std::unique_ptr<ShaderReload> mShaders;
     std::unique_ptr<Recorder> mRecorder;
     int mRecordFrame = 0, mRecordEnd = 0;
     double mTimeBefore = 0;  // to go back to

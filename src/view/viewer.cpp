@@ -50,6 +50,7 @@ class Viewer {
           mDevice(makeDevice(options, log)),
           mSubmitter(*mDevice),
           mStage(*mDevice, log, options.scene) {
+        if (!options.shaders.empty()) mStage.watchShaders(options.shaders);
         if (!options.script.empty()) mScript.emplace(options.script);
         setStyle(mWindow->contentScale());
         mWindow->attach(*mDevice);

@@ -19,6 +19,7 @@ struct ViewerOptions {
     std::string shadow;            ///< of all lights; empty: as the scene says
     int width = 1280, height = 720;  ///< of the window
     bool isOffscreen = false;        ///< no window: an image, for scripts
+    std::filesystem::path shaders;   ///< see Stage::watchShaders(); empty: none
     std::filesystem::path script;    ///< see Script; without a window its end is the viewer's
     gpu::DeviceOptions device;
 };

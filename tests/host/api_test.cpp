@@ -206,7 +206,7 @@ TEST_F(HostTest, BadArguments_AreRefusedByName) {
         return brumePrepare(scene.get(), &changed);
     };
     expect(prepareWith([](BrumeView& v) { v.viewFromWorld[0] = 2; }), "scales");
-    expect(prepareWith([](BrumeView& v) { v.clipFromView[8] = 0.1; }), "off-centre");
+    expect(prepareWith([](BrumeView& v) { v.clipFromView[4] = 0.1; }), "skewed");
     expect(prepareWith([](BrumeView& v) { v.width = 49; }), "beyond");
     expect(prepareWith([](BrumeView& v) { v.x = -1; }), "viewport");
     expect(prepareWith([](BrumeView& v) { v.color.format = VK_FORMAT_UNDEFINED; }), "color");

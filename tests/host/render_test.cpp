@@ -187,6 +187,72 @@ TEST_F(HostTest, NegativeHeight_TurnsTheImageOver) {
     EXPECT_GT(spread, 1e-2);
 }
 
+/// Part of the image through a projection of its own, which is off-centre then.
+struct PartCase {
+    const char* name;
+    bool isOrthographic, isTurned;
+};
+
+class HostParts : public HostTest, public ::testing::WithParamInterface<PartCase> {};
+
+TEST_P(HostParts, OffCentreProjection_ShowsThatPartOfTheWhole) {
+    std::string text = kSpheresScene;
+    text.insert(text.rfind("}"), R"(, "materials": {
+        "pane": { "type": "thin", "transmission": [0.9, 0.3, 0.2], "reflected": [0.1, 0.1, 0.1] },
+        "box": { "type": "opaque" } },
+        "meshes": [ { "shape": "plane", "size": [2, 2], "material": "pane",
+                      "transform": { "rotate": [80, 20, 0], "translate": [0.4, 0.3, 1] } },
+                    { "shape": "box", "size": [0.8, 0.8, 0.8], "material": "box",
+                      "transform": { "rotate": [20, 30, 0], "translate": [-0.5, -0.4, 0.6] } } ])");
+    const Context context(host().contextInfo());
+    host().draw({0.2f, 0.3f, 0.4f}, 0);
+    BrumeView whole = host().view();
+    if (GetParam().isOrthographic) {
+        double* m = whole.clipFromView;
+        std::fill_n(m, 16, 0.0);
+        m[0] = 0.3, m[5] = -0.45, m[10] = 0.05, m[14] = 1, m[15] = 1;  // z from 0 to -20, reversed
+    }
+    if (GetParam().isTurned) whole.y = whole.height, whole.height = -whole.height;
+    // Pixels 18 to 42 and 4 to 20 of 48 x 32, the middle of which is at 1/4, -1/4 of the clip space.
+    BrumeView part = whole;
+    part.x = 18, part.y = 4, part.width = 24, part.height = 16;
+    double middleY = -0.25;
+    if (GetParam().isTurned) part.y = 20, part.height = -16, middleY = 0.25;
+    for (int column = 0; column < 4; ++column) {
+        double* m = part.clipFromView + 4 * column;
+        m[0] = 2 * (m[0] - 0.25 * m[3]);
+        m[1] = 2 * (m[1] - middleY * m[3]);
+    }
+    for (const char* method : {"sorted", "weighted"}) {
+        Scene scene = makeScene(context, text.c_str(), method);
+        Scene other = makeScene(context, text.c_str(), method);
+        const auto renderWith = [&](Scene& used, const BrumeView& view) {
+            host().draw({0.2f, 0.3f, 0.4f}, 0);
+            host().frame(context.get(),
+                         [&](VkCommandBuffer commands) { used.cmdRender(commands, view); });
+            return host().read();
+        };
+        const std::vector<vec4> expected = renderWith(scene, whole), seen = renderWith(other, part);
+        int wrong = 0, drawn = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const std::size_t x = i % 48, y = i / 48;
+            const bool isInside = x >= 18 && x < 42 && y >= 4 && y < 20;
+            const vec3 blank(0.2f, 0.3f, 0.4f), right = isInside ? vec3(expected[i]) : blank;
+            const vec3 off = glm::abs(vec3(seen[i]) - right);
+            drawn += isInside && glm::distance(right, blank) > 0.02f;
+            wrong += std::max({off.x, off.y, off.z}) > 2e-5f;
+        }
+        EXPECT_LE(wrong, 4) << method << ": pixels, at edges that are snapped to sub-pixels";
+        EXPECT_GT(drawn, 100) << method;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HostParts,
+                         ::testing::Values(PartCase{"perspective", false, false},
+                                           PartCase{"perspective_turned_over", false, true},
+                                           PartCase{"orthographic", true, false}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
 TEST_F(HostTest, ObjectsByCalls_EqualThoseOfAFile) {
     const Context context(host().contextInfo());
     Scene fromFile = makeScene(context, kSpheresScene, "sorted");

@@ -6,6 +6,7 @@
 #include <gpu/gpu_fixture.hpp>
 #include <oit/layer_count.hpp>
 #include <scene/loader.hpp>
+#include <view/programs.hpp>
 #include <view/stage.hpp>
 
 #include <shaders/common/heat.h>
@@ -233,6 +234,49 @@ TEST_F(StageTest, ChangedFile_IsShown) {
     updateUntil([this] { return mStage->document.loads() == 2; });
     settle();
     EXPECT_NE(computeHash(shot()), before);
+}
+
+// A shader that is edited draws the next picture; one with a mistake is told, and nothing changes.
+TEST_F(StageTest, ChangedShader_IsCompiledAndUsed) {
+    if (!hasProgram("glslangValidator")) GTEST_SKIP() << "needs glslangValidator";
+    std::filesystem::copy(BRUME_SOURCE_DIR "/shaders", mFolder / "shaders",
+                          std::filesystem::copy_options::recursive);
+    mStage->choices[0] = {"unordered", {}, "none"};
+    mStage->watchShaders(mFolder / "shaders");
+    settle();
+    const Image before = shot();
+    const std::string name = "shaders/render/background.frag", original = mFolder.read(name);
+    const auto write = [&](const std::string& statement) {
+        std::string text = original;
+        mFolder.write(name, text.insert(text.find("    opaqueT ="), statement));
+    };
+    write("    color.rgb = vec3(7.0, 8.0, 9.0)\n");
+    updateUntil([this] { return mStage->message().isError; });
+    EXPECT_NE(mStage->message().text.find("render/background.frag"), std::string::npos)
+        << mStage->message().text;
+    EXPECT_EQ(computeHash(shot()), computeHash(before));
+    write("    color.rgb = vec3(7.0, 8.0, 9.0);\n");
+    updateUntil([this] { return mStage->message().text == "compiled 1 shader"; });
+    settle();
+    EXPECT_EQ(shot().at(0, 0), vec3(7, 8, 9));
+    mFolder.write(name, original);
+    updateUntil([this] { return shot().at(0, 0) != vec3(7, 8, 9); });
+    settle();
+    EXPECT_LE(glm::distance(shot().at(0, 0), before.at(0, 0)), 1e-6f);
+}
+
+TEST_F(StageTest, ShadersElsewhere_AreRefused) {
+    EXPECT_THROW(mStage->watchShaders(mFolder / ""), Error);
+}
+
+// Every shader that the table names is there, and a change of a shared header reaches many.
+TEST(ShaderTable_EveryShader, HasItsSource) {
+    EXPECT_GT(listShaders().size(), 100u);
+    for (const ShaderSource& shader : listShaders()) {
+        EXPECT_TRUE(std::filesystem::exists(std::string(BRUME_SOURCE_DIR "/shaders/") + shader.file))
+            << shader.file;
+        EXPECT_EQ(shader.embedded[0], 0x07230203u) << shader.file << " is no SPIR-V";
+    }
 }
 
 }  // namespace

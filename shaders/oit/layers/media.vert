@@ -44,8 +44,9 @@ void main() {
     uint c = corner < 3u ? corner : corner == 3u ? 2u : corner == 4u ? 1u : 3u;
     vec2 margin = 0.04 / vec2(frame.size);
     vec2 extent = vec2(frame.extentX, frame.extentY);
-    vec2 lo = max(bounds.lo / extent - margin, vec2(-1.1)),
-         hi = min(bounds.hi / extent + margin, vec2(1.1));
+    vec2 center = vec2(frame.centerX, frame.centerY);
+    vec2 lo = max((bounds.lo - center) / extent - margin, vec2(-1.1)),
+         hi = min((bounds.hi - center) / extent + margin, vec2(1.1));
     vec2 p = vec2((c & 1u) != 0u ? hi.x : lo.x, (c & 2u) != 0u ? hi.y : lo.y);
     bool isDrawn = bounds.isVisible && all(lessThan(lo, hi));
     gl_Position = isDrawn ? vec4(p.x, -p.y, 0.5, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

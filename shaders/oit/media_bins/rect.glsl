@@ -11,6 +11,8 @@ uvec2 tileRect(Bounds bounds) {
     const float kMargin = 0.02;  // pixels; covers the rounding of the projection
     vec2 size = vec2(frame.size);
     vec2 extent = vec2(frame.extentX, frame.extentY);
+    vec2 center = vec2(frame.centerX, frame.centerY);
+    bounds.lo -= center, bounds.hi -= center;
     vec2 first = (vec2(bounds.lo.x, -bounds.hi.y) / extent * 0.5 + 0.5) * size - kMargin;
     vec2 last = (vec2(bounds.hi.x, -bounds.lo.y) / extent * 0.5 + 0.5) * size + kMargin;
     if (any(lessThan(last, vec2(0))) || any(greaterThan(first, size))) return kNoRect;

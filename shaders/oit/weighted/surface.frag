@@ -34,6 +34,7 @@ vec2 refractionOf(SurfacePoint point, Ray ray) {
     vec3 seen = point.position + direction * (kBehind / along);
     vec3 view = vec3(dot(seen, frame.right), -dot(seen, frame.up), dot(seen, frame.forward));
     vec2 plane = frame.orthographic != 0u ? view.xy : view.xy / max(view.z, 1e-6);
+    plane -= vec2(frame.centerX, -frame.centerY);
     vec2 pixel = (plane / vec2(frame.extentX, frame.extentY) * 0.5 + 0.5) * vec2(frame.size);
     return clamp(pixel - gl_FragCoord.xy, vec2(-512.0), vec2(512.0));
 }

@@ -36,7 +36,9 @@ struct DepthCollision {
     float extentY;
     vec3 forward;
     uint isOrthographic;
-    uvec2 size;  // pixels
+    uvec2 size;     // pixels
+    float centerX;  // middle of the image on its plane, 0 where it is symmetric
+    float centerY;
 };
 
 /// From an instance's space to the camera's, and back.

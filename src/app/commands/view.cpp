@@ -23,6 +23,7 @@ void runView(const ViewArguments& arguments, const Log& log) {
     }
     options.isOffscreen = arguments.isOffscreen;
     options.script = arguments.script;
+    options.shaders = arguments.shaders;
     options.device = makeDeviceOptions(arguments.device);
     checkValidation(view::runViewer(options, log), "window", log);
 }

@@ -15,6 +15,7 @@ struct ViewArguments {
     std::string shadow;  ///< for all lights; empty: the scene's
     std::vector<std::string> settings;  ///< "key=value"
     std::string size;                   ///< of the window, "WxH"; empty: 1280x720
+    std::filesystem::path shaders;  ///< folder to watch; empty: none
     std::filesystem::path script;
     bool isOffscreen = false;
     DeviceArguments device;
