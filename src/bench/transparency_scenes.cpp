@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes after the figures of the papers on order-independent transparency: glass bars, frosted
 // panes, fog, smoke among glass, shells, foliage and cloth.
+#include <bench/scene_builder.hpp>
 #include <bench/scene_parts.hpp>
 #include <scene/mesh_shapes.hpp>
 #include <scene/texture.hpp>
@@ -11,89 +12,8 @@
 namespace brume::bench {
 namespace {
 
-dmat4 place(const dvec3& at, double yaw = 0, double pitch = 0) {
-    dmat4 m = glm::translate(dmat4(1), at);
-    m = glm::rotate(m, radians(yaw), dvec3(0, 1, 0));
-    return glm::rotate(m, radians(pitch), dvec3(1, 0, 0));
-}
-
-/// A scene under construction, seen from +z.
-struct Builder {
-    scene::Scene scene;
-
-    Builder(const dvec3& eye, const dvec3& target, double fov) {
-        scene.image = {640, 360, 1};
-        scene.camera.position = eye;
-        scene.camera.target = target;
-        scene.camera.verticalFov = radians(fov);
-    }
-
-    std::uint32_t add(const scene::Material& material) {
-        scene.materials.push_back(material);
-        return static_cast<std::uint32_t>(scene.materials.size() - 1);
-    }
-    std::uint32_t addOpaque(const dvec3& albedo, const dvec3& emission = dvec3(0)) {
-        scene::Material m;
-        m.albedo = albedo;
-        m.emission = emission;
-        return add(m);
-    }
-    std::uint32_t addThin(double coverage, const dvec3& transmission, const dvec3& reflected,
-                          double collimation = 1) {
-        scene::Material m;
-        m.type = scene::MaterialType::Thin;
-        m.coverage = coverage;
-        m.transmission = transmission;
-        m.reflected = reflected;
-        m.collimation = collimation;
-        return add(m);
-    }
-    std::uint32_t addGlass(const dvec3& absorption) {
-        scene::Material m;
-        m.type = scene::MaterialType::Solid;
-        m.absorption = absorption;
-        return add(m);
-    }
-    std::uint32_t addMedium(double extinction, const dvec3& albedo) {
-        scene::Medium medium;
-        medium.extinction = dvec3(extinction);
-        medium.albedo = albedo;
-        scene.media.push_back(medium);
-        return static_cast<std::uint32_t>(scene.media.size() - 1);
-    }
-    void addMesh(scene::Mesh mesh, std::uint32_t material, const dmat4& transform) {
-        mesh.material = material;
-        scene::placeMesh(mesh, transform);
-        scene.meshes.push_back(std::move(mesh));
-    }
-    /// A rectangle that faces +z.
-    void addPane(std::uint32_t material, const dvec2& size, const dvec3& at, double yaw = 0) {
-        addMesh(scene::makePlane(size), material, place(at, yaw, 90));
-    }
-    void addBox(std::uint32_t material, const dvec3& size, const dvec3& at) {
-        addMesh(scene::makeBox(size), material, place(at));
-    }
-    void addSphere(std::uint32_t medium, const dvec3& center, double radius, double density) {
-        scene.spheres.push_back(
-            {center, radius, medium, density, scene::Profile::Smooth});
-    }
-    void addPoint(const dvec3& position, const dvec3& intensity) {
-        scene::Light light;
-        light.type = scene::LightType::Point;
-        light.position = position;
-        light.color = intensity;
-        light.radius = 0.1;
-        scene.lights.push_back(light);
-    }
-    void addAmbient(const dvec3& radiance) {
-        scene::Light light;
-        light.color = radiance;
-        scene.lights.push_back(light);
-    }
-};
-
 scene::Scene makeGlassBars() {
-    Builder b(dvec3(0, 0, 5), dvec3(0), 40);
+    SceneBuilder b(dvec3(0, 0, 5), dvec3(0), 40);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(0.9);
     const dvec3 colours[] = {{0.9, 0.1, 0.1}, {0.1, 0.8, 0.2}, {0.15, 0.3, 0.95},
@@ -108,7 +28,7 @@ scene::Scene makeGlassBars() {
 }
 
 scene::Scene makeFrostedPanes() {
-    Builder b(dvec3(0, 1, 6), dvec3(0, 0.8, 0), 36);
+    SceneBuilder b(dvec3(0, 1, 6), dvec3(0, 0.8, 0), 36);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(0.35, 0.4, 0.5);
     b.addMesh(scene::makePlane(dvec2(30)), b.addOpaque({0.3, 0.28, 0.25}), dmat4(1));
@@ -128,7 +48,7 @@ scene::Scene makeFrostedPanes() {
 }
 
 scene::Scene makeFoggyStreet() {
-    Builder b(dvec3(0, 1.7, 14), dvec3(0, 2.2, 0), 45);
+    SceneBuilder b(dvec3(0, 1.7, 14), dvec3(0, 2.2, 0), 45);
     b.addAmbient(dvec3(0.02, 0.025, 0.04));
     b.scene.background.radiance = dvec3(0.01, 0.015, 0.03);
     b.addMesh(scene::makePlane(dvec2(60)), b.addOpaque({0.12, 0.12, 0.13}), dmat4(1));
@@ -152,7 +72,7 @@ scene::Scene makeFoggyStreet() {
 }
 
 scene::Scene makeSmokeAndGlass() {
-    Builder b(dvec3(0, 1.2, 5), dvec3(0, 0.9, 0), 42);
+    SceneBuilder b(dvec3(0, 1.2, 5), dvec3(0, 0.9, 0), 42);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(0.5, 0.6, 0.75);
     b.addMesh(scene::makePlane(dvec2(20)), b.addOpaque({0.4, 0.38, 0.35}), dmat4(1));
@@ -173,7 +93,7 @@ scene::Scene makeSmokeAndGlass() {
 }
 
 scene::Scene makePlume100k() {
-    Builder b(dvec3(0, 1.5, 6), dvec3(0, 1.5, 0), 36);
+    SceneBuilder b(dvec3(0, 1.5, 6), dvec3(0, 1.5, 0), 36);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(0.25, 0.35, 0.55);
     const std::uint32_t smoke = b.addMedium(8, {0.75, 0.72, 0.7});
@@ -189,7 +109,7 @@ scene::Scene makePlume100k() {
 }
 
 scene::Scene makeEngine() {
-    Builder b(dvec3(2.2, 1.6, 3), dvec3(0), 36);
+    SceneBuilder b(dvec3(2.2, 1.6, 3), dvec3(0), 36);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(1);
     Random random(14);
@@ -244,7 +164,7 @@ scene::Mesh makeRibbon(const dvec3& root, const dvec3& bend, double length, doub
 }
 
 scene::Scene makeMixed() {
-    Builder b(dvec3(0, 1.1, 4.5), dvec3(0, 1, 0), 42);
+    SceneBuilder b(dvec3(0, 1.1, 4.5), dvec3(0, 1, 0), 42);
     addDaylight(b.scene);
     b.scene.background.radiance = dvec3(0.55, 0.65, 0.8);
     b.addMesh(scene::makePlane(dvec2(20)), b.addOpaque({0.4, 0.36, 0.3}), dmat4(1));
@@ -277,6 +197,32 @@ scene::Scene makeMixed() {
     return b.scene;
 }
 
+/// A ball of hair: ribbons of half coverage that overlap a hundredfold at its rim.
+scene::Scene makeFur() {
+    SceneBuilder b(dvec3(0, 0, 4.2), dvec3(0, -0.2, 0), 36);
+    addDaylight(b.scene);
+    b.scene.background.radiance = dvec3(0.55, 0.65, 0.8);
+    b.addMesh(scene::makeSphere(0.5, 32), b.addOpaque({0.3, 0.2, 0.12}), dmat4(1));
+    Random random(16);
+    scene::Mesh coats[3];
+    for (int i = 0; i < 6000; ++i) {
+        const double z = random.uniform(-1, 1), turn = random.uniform(0, 2 * kPi);
+        const dvec3 out(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+        const scene::Mesh hair = makeRibbon(0.5 * out, 0.5 * out + dvec3(0, 0.2, 0),
+                                            random.uniform(0.2, 0.5), 0.006, 5);
+        scene::Mesh& coat = coats[i % 3];
+        const auto first = static_cast<std::uint32_t>(coat.positions.size());
+        coat.positions.insert(coat.positions.end(), hair.positions.begin(), hair.positions.end());
+        coat.normals.insert(coat.normals.end(), hair.normals.begin(), hair.normals.end());
+        coat.uvs.insert(coat.uvs.end(), hair.uvs.begin(), hair.uvs.end());
+        for (const std::uint32_t index : hair.indices) coat.indices.push_back(first + index);
+    }
+    for (int i = 0; i < 3; ++i)
+        b.addMesh(std::move(coats[i]), b.addThin(0.5, dvec3(0), (0.5 + 0.25 * i) * dvec3(0.6, 0.4, 0.2)),
+                  dmat4(1));
+    return b.scene;
+}
+
 struct Maker {
     std::string_view name;
     scene::Scene (*make)();
@@ -288,6 +234,7 @@ constexpr Maker kMakers[] = {{"glass_bars", &makeGlassBars},
                              {"smoke_and_glass", &makeSmokeAndGlass},
                              {"plume_100k", &makePlume100k},
                              {"engine", &makeEngine},
+                             {"fur", &makeFur},
                              {"mixed", &makeMixed}};
 
 }  // namespace

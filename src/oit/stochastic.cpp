@@ -211,6 +211,7 @@ const MethodInfo& info() {
         .passes = "2 raster per 16 samples (8 with colours) + 1 resolve",
         .bytesPerPixel = "32 + 4 S, S <= 16 samples in a pass; 48 + 12 S, S <= 8 with colours",
         .limits = "noise; bricks and boxes count as homogeneous inside",
+        .weaknesses = {Weakness::Noise, Weakness::Profile, Weakness::Emission},
         .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64", "4", "per pixel"},
                      {"mask", "naive, stratified", "stratified",
                       "samples chosen each by itself, or as even shares"},

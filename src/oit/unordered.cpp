@@ -38,6 +38,7 @@ const MethodInfo& info() {
         .passes = "1 raster",
         .bytesPerPixel = "0 (40 with solids)",
         .limits = "ignores order, overlap and colour of transmission",
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces, Weakness::Colour},
         .settings = {}};
     return kInfo;
 }

@@ -267,6 +267,8 @@ const MethodInfo& info() {
                          "8; exact: 24, 48, 16",
         .limits = "near layers do not hide far ones of another radiance as they should; overlapping "
                   "media are not mixed",
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
+                       Weakness::Emission},
         .settings = {
             {"precision", "half, single, exact", "single",
              "of the sums; exact keeps thousands of faint layers to 1e-6"},

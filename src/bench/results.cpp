@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bench/results.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace brume::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe(const Machine& m) {
+    return {{"device", m.device},
+            {"type", m.type},
+            {"driver", m.driver},
+            {"api", m.api},
+            {"processor", m.processor},
+            {"cores", m.cores},
+            {"version", m.version},
+            {"commit", m.commit},
+            {"bytesPerSecond", m.bytesPerSecond},
+            {"fragmentsPerSecond", m.fragmentsPerSecond},
+            {"samples", m.samples}};
+}
+
+Json describe(const SimulationCost& cost) {
+    return {{"name", cost.name},
+            {"timeMs",
+             {{"median", cost.time.median},
+              {"p05", cost.time.p05},
+              {"p95", cost.time.p95},
+              {"repeats", cost.time.repeats}}},
+            {"copyRatio", cost.copyRatio},
+            {"perSecond", cost.perSecond},
+            {"command", cost.command}};
+}
+
+}  // namespace
+
+std::string toJson(const Results& results) {
+    Json json = {{"machine", describe(results.machine)}, {"command", results.command}};
+    json["rows"] = Json::array();
+    for (const Measurement& m : results.frames) json["rows"].push_back(describe(m.row));
+    if (!results.shadows.empty()) json["shadows"] = Json::array();
+    for (const ShadowRow& row : results.shadows) json["shadows"].push_back(describe(row));
+    if (!results.simulation.empty()) json["simulation"] = Json::array();
+    for (const SimulationCost& cost : results.simulation)
+        json["simulation"].push_back(describe(cost));
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string describeMachine(const Machine& m) {
+    return fmt::format(
+        "Brume {} ({}) on {} ({}), Vulkan {}; {}, {} cores; copies {:.1f} GB/s (read and written), "
+        "blends {:.0f} M fragments/s",
+        m.version, m.commit, m.device, m.driver, m.api, m.processor, m.cores,
+        1e-9 * m.bytesPerSecond, 1e-6 * m.fragmentsPerSecond);
+}
+
+std::vector<std::string> listFailures(const Results& results) {
+    std::vector<std::string> failures;
+    for (const Measurement& m : results.frames)
+        if (!m.row.failure.empty())
+            failures.push_back(
+                fmt::format("{} by {}: {}", m.row.scene, m.row.method, m.row.failure));
+    for (const ShadowRow& row : results.shadows)
+        if (!row.failure.empty())
+            failures.push_back(fmt::format("{} with {}: {}", row.scene, row.store, row.failure));
+    return failures;
+}
+
+}  // namespace brume::bench
