@@ -13,9 +13,9 @@ namespace {
 constexpr int kSize = 48;
 
 /// Seen from z = 4 under a sky of one colour, lit from everywhere alike.
-struct HardBuilder : SceneBuilder {
+struct HardBuilder : Builder {
     explicit HardBuilder(const dvec3& eye = dvec3(0, 0, 4), const dvec3& target = dvec3(0))
-        : SceneBuilder(eye, target, 40) {
+        : Builder(eye, target, 40) {
         scene.image = {kSize, kSize, 1};
         scene.background.radiance = dvec3(0.2, 0.3, 0.4);
         addAmbient(dvec3(0.5));
@@ -208,7 +208,7 @@ NamedScene makeGrazing() {
     HardBuilder b(dvec3(0, 0, 4), dvec3(0));
     b.scene.camera.type = scene::CameraType::Orthographic;
     b.scene.camera.height = 3;
-    b.addMesh(scene::makeBox(dvec3(1.0)), b.addGlass({1.5, 0.5, 0.2}), place({0.01, 0.013, 0}));
+    b.addMesh(scene::makeBox(dvec3(1.0)), b.addGlass({1.5, 0.5, 0.2}, -1), place({0.01, 0.013, 0}));
     b.addBall(b.addMedium(1, dvec3(0.8)), {-1, 0.9, 0}, 0.4);
     return b.named("hard_grazing");
 }
@@ -216,7 +216,7 @@ NamedScene makeGrazing() {
 /// Glass in smoke, smoke in glass: surfaces and intervals share one order.
 NamedScene makeNested() {
     HardBuilder b;
-    b.addMesh(scene::makeSphere(0.7, 24), b.addGlass({0.8, 0.3, 0.2}), place({0.1, 0, 0}));
+    b.addMesh(scene::makeSphere(0.7, 24), b.addGlass({0.8, 0.3, 0.2}, -1), place({0.1, 0, 0}));
     const std::uint32_t smoke = b.addMedium(1.5, dvec3(0.9, 0.6, 0.3));
     b.addBall(smoke, {0.1, 0.05, 0}, 0.4);
     b.addBall(smoke, {-0.3, 0, 0.2}, 1);

@@ -249,7 +249,7 @@ std::shared_ptr<const scene::Texture> makeSoftDisc(int size) {
 }  // namespace
 
 scene::Scene makeMeshSpheres() {
-    SceneBuilder b(dvec3(0, 0, 17), dvec3(0), 40);
+    Builder b(dvec3(0, 0, 17), dvec3(0), 40);
     b.scene.image = {1280, 720, 1};
     b.scene.background.radiance = dvec3(0.1, 0.15, 0.25);
     addDaylight(b.scene);

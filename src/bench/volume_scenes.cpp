@@ -49,7 +49,7 @@ std::optional<NamedScene> makeBoxesScene(const std::string& name) {
     static const std::regex kName("boxes_(\\d{1,5})");
     std::smatch part;
     if (!std::regex_match(name, part, kName)) return std::nullopt;
-    SceneBuilder b(dvec3(0, 0, 4), dvec3(0), 36);
+    Builder b(dvec3(0, 0, 4), dvec3(0), 36);
     b.scene.background.radiance = dvec3(0.2, 0.3, 0.5);
     addDaylight(b.scene);
     scene::Volume volume;

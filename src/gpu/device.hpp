@@ -209,6 +209,8 @@ class Device {
                         const std::string& object);
     /// What the device supports for such an image; VK_ERROR_FORMAT_NOT_SUPPORTED if nothing.
     VkResult imageLimits(const VkImageCreateInfo& info, VkImageFormatProperties& limits) const;
+    /// Can images of this format be colour targets that blend?
+    bool canBlend(VkFormat format) const;
     const std::shared_ptr<ObjectRegistry>& registry() const { return mRegistry; }
 
   private:

@@ -145,4 +145,10 @@ VkResult Device::imageLimits(const VkImageCreateInfo& info, VkImageFormatPropert
                                       info.usage, info.flags, &limits);
 }
 
+bool Device::canBlend(VkFormat format) const {
+    VkFormatProperties properties{};
+    mFunctions->getFormat(mPhysicalDevice, format, &properties);
+    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
+}
+
 }  // namespace brume::gpu

@@ -21,6 +21,7 @@ struct FormatInfo {
 constexpr FormatInfo kFormats[] = {{VK_FORMAT_R8_UNORM, 1, "r8_unorm"},
                                    {VK_FORMAT_R8_UINT, 1, "r8_uint"},
                                    {VK_FORMAT_R8G8_UNORM, 2, "r8g8_unorm"},
+                                   {VK_FORMAT_R8G8_SNORM, 2, "r8g8_snorm"},
                                    {VK_FORMAT_R8G8B8A8_UNORM, 4, "r8g8b8a8_unorm"},
                                    {VK_FORMAT_R8G8B8A8_SRGB, 4, "r8g8b8a8_srgb"},
                                    {VK_FORMAT_B8G8R8A8_UNORM, 4, "b8g8r8a8_unorm"},

@@ -192,6 +192,7 @@ InstanceFunctions InstanceFunctions::load(PFN_vkGetInstanceProcAddr loader, VkIn
     get(f.getMemoryProperties, "vkGetPhysicalDeviceMemoryProperties");
     get(f.getQueueFamilies, "vkGetPhysicalDeviceQueueFamilyProperties");
     get(f.getImageFormat, "vkGetPhysicalDeviceImageFormatProperties");
+    get(f.getFormat, "vkGetPhysicalDeviceFormatProperties");
     get(f.createDevice, "vkCreateDevice");
     get(f.getDeviceProcAddr, "vkGetDeviceProcAddr");
     if (!debugUtils) return f;

@@ -20,6 +20,7 @@ struct InstanceFunctions {
     PFN_vkGetPhysicalDeviceMemoryProperties getMemoryProperties = nullptr;
     PFN_vkGetPhysicalDeviceQueueFamilyProperties getQueueFamilies = nullptr;
     PFN_vkGetPhysicalDeviceImageFormatProperties getImageFormat = nullptr;
+    PFN_vkGetPhysicalDeviceFormatProperties getFormat = nullptr;
     PFN_vkCreateDevice createDevice = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
     // Of VK_EXT_debug_utils; null without it.

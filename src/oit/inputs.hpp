@@ -58,6 +58,7 @@ struct CallersRendering {
 struct Inputs {
     Needs needs;
     VkExtent2D extent{};
+    std::uint32_t supersample = 1;         ///< n x n pixels of the extent are one of the image
     const gpu::Buffer* frame = nullptr;    ///< FrameData
     const gpu::Buffer* lights = nullptr;   ///< LightData[]
     const gpu::Buffer* media = nullptr;    ///< MediumData[]

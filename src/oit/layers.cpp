@@ -4,6 +4,7 @@
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/layers/layers.h>
+#include <shaders/oit/upsample/upsample.h>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/common/screen.vert.hpp>
 #include <spv/oit/layers/media.vert.hpp>
@@ -11,6 +12,7 @@
 #include <spv/oit/unordered/media.frag.hpp>
 #include <spv/oit/unordered/solid.frag.hpp>
 #include <spv/oit/unordered/surface.frag.hpp>
+#include <spv/oit/upsample/over.frag.hpp>
 
 namespace brume::oit {
 namespace {
@@ -94,6 +96,7 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                           std::span<const std::uint32_t> fragment,
                           const std::vector<gpu::Binding>& bindings) {
         const bool hasDepth = desc.depthFormat != VK_FORMAT_UNDEFINED;
+        const bool isTested = hasDepth && desc.depthUse != DepthUse::Idle;
         return gpu::GraphicsPipeline(
             device, {.name = desc.name + suffix,
                      .vertexSpirv = vertex,
@@ -104,9 +107,9 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                      .specialization = constants,
                      .constants = lightingConstants(inputs.needs),
                      .colors = desc.colors,
-                     .depthFormat = hasDepth ? desc.depthFormat : desc.idleDepthFormat,
-                     .depthTest = hasDepth,
-                     .depthWrite = hasDepth});
+                     .depthFormat = desc.depthFormat,
+                     .depthTest = isTested,
+                     .depthWrite = hasDepth && desc.depthUse == DepthUse::TestAndWrite});
     };
     if ((kinds & kLayersMedia) != 0 && (inputs.needs.spheres || inputs.needs.boxes))
         mMedia = make("_media", spv::oit_layers_media_vert, desc.shaders.media, mediaBindings());
@@ -196,15 +199,64 @@ gpu::ColorTarget overTarget(const CallersRendering& callers) {
 
 }  // namespace
 
-OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs)
-    : mName(name),
-      mSolids(device, name, inputs),
-      mPass(device, inputs,
-            {.name = name + ".store",
-             .shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
-                         spv::oit_unordered_solid_frag},
-             .colors = {overTarget(inputs.callers)},
-             .idleDepthFormat = inputs.callers.depth}) {}
+std::uint32_t readLowResolution(scene::SettingsReader& reader) {
+    return static_cast<std::uint32_t>(
+        std::stoul(reader.choice(std::string(kLowResolution.name), "1", {"1", "2", "4"})));
+}
+
+VkExtent2D lowExtent(const Inputs& inputs, std::uint32_t lowResolution) {
+    return {(inputs.extent.width + lowResolution - 1) / lowResolution,
+            (inputs.extent.height + lowResolution - 1) / lowResolution};
+}
+
+LayerPassDesc OverLayers::describePass(const char* suffix, const CallersRendering& callers) const {
+    LayerPassDesc desc;
+    desc.name = mName + suffix;
+    desc.shaders = {spv::oit_unordered_media_frag, spv::oit_unordered_surface_frag,
+                    spv::oit_unordered_solid_frag};
+    desc.colors = {overTarget(callers)};
+    desc.depthFormat = callers.depth;
+    desc.depthUse = DepthUse::Idle;
+    return desc;
+}
+
+OverLayers::OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs,
+                       std::uint32_t lowResolution)
+    : mName(name), mLowResolution(lowResolution), mSolids(device, name, inputs) {
+    const LayerPassDesc store = describePass(".store", inputs.callers);
+    mPass = LayerPass(device, inputs, store, lowResolution > 1 ? kLayersSurfaces : kLayersAll);
+    if (lowResolution == 1) return;
+    LayerPassDesc low = describePass(".store_low", {});
+    low.scale = lowResolution;
+    mLow = LayerPass(device, inputs, low, kLayersMedia);
+    mUpsample = {device,
+                 {.name = name + ".upsample",
+                  .vertexSpirv = spv::common_screen_vert,
+                  .fragmentSpirv = spv::oit_upsample_over_frag,
+                  .bindings = {kOpaqueT, {shader::kBindingLowMedia, BindingType::SampledImage}},
+                  .specialization = {lowResolution},
+                  .colors = store.colors,
+                  .depthFormat = store.depthFormat}};
+}
+
+frame::ImageRef OverLayers::declareLow(frame::FrameBuilder& frame, const Inputs& inputs,
+                                       frame::BufferRef order) const {
+    if (mLowResolution == 1) return {};
+    const VkExtent2D extent = lowExtent(inputs, mLowResolution);
+    const frame::ImageRef low = frame.createImage({.name = mName + ".low",
+                                                   .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                   .width = extent.width,
+                                                   .height = extent.height,
+                                                   .usage = 0});
+    frame::PassBuilder& pass = frame.addPass(mName + ".store_low");
+    LayerPass::declareReads(pass, inputs, {}, order);
+    pass.color(low, gpu::LoadOp::Clear);
+    pass.record([this, inputs, order](gpu::Commands& commands,
+                                      const frame::PassResources& resources) {
+        mLow.record(commands, resources, inputs, {}, {.order = order});
+    });
+    return low;
+}
 
 void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                          frame::BufferRef order) const {
@@ -217,14 +269,23 @@ void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                                    resources.image(inputs.result));
             });
     const SolidTargets solids = mSolids.declare(frame, inputs);
+    const frame::ImageRef low = declareLow(frame, inputs, order);
     frame::PassBuilder& pass = frame.addPass(mName + ".store");
     LayerPass::declareReads(pass, inputs, solids, order);
+    if (low) pass.reads(low, Access::FragmentSample);
     if (inputs.callers)
         pass.insideCallersRendering();
     else
         pass.color(inputs.result, gpu::LoadOp::Load);
-    pass.record([this, inputs, solids, order](gpu::Commands& commands,
-                                              const frame::PassResources& resources) {
+    pass.record([this, inputs, solids, order, low](gpu::Commands& commands,
+                                                   const frame::PassResources& resources) {
+        if (low) {
+            commands.bindGraphics(mUpsample);
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            commands.bind(shader::kBindingLowMedia, resources.image(low), *inputs.texelSampler);
+            commands.draw(3);
+        }
         mPass.record(commands, resources, inputs, solids, {.order = order});
     });
 }
@@ -247,7 +308,7 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
              .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, {}}}}};
 }
 
-void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
                     const std::function<void(gpu::Commands&)>& push) {
@@ -265,6 +326,7 @@ void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std:
         if (push) push(commands);
         commands.draw(3);
     });
+    return pass;
 }
 
 }  // namespace brume::oit

@@ -9,6 +9,7 @@
 
 #include <gpu/pipeline.hpp>
 #include <oit/inputs.hpp>
+#include <scene/settings.hpp>
 
 #include <functional>
 #include <span>
@@ -42,6 +43,13 @@ struct LayerShaders {
     std::span<const std::uint32_t> media, surface, solid;
 };
 
+/// What layers do with an attached depth.
+enum class DepthUse {
+    Idle,         ///< nothing
+    Test,         ///< where it is 1 none is drawn, where it is 0 all are
+    TestAndWrite  ///< the nearest stays
+};
+
 struct LayerPassDesc {
     std::string name;  ///< e.g. "oit.weighted.store"
     LayerShaders shaders;
@@ -50,8 +58,8 @@ struct LayerPassDesc {
     std::vector<gpu::ColorTarget> colors;
     std::uint32_t scale = 1;  ///< pixels of the image per edge of a texel of the targets
     bool drawsSolidFaces = false;  ///< surface shaders want the faces of solids as well
-    VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: layers write and test their depth
-    VkFormat idleDepthFormat = VK_FORMAT_UNDEFINED;  ///< set: attached, neither tested nor written
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< set: a depth is attached
+    DepthUse depthUse = DepthUse::TestAndWrite;
 };
 
 /// How a method uses one drawing of its layers.
@@ -94,20 +102,36 @@ class LayerPass {
     gpu::GraphicsPipeline mMedia, mSurfaces, mSolids;
 };
 
+/// The setting of methods that can render media at a fraction of the size: pixels per edge of their
+/// texels. Surfaces stay at full size.
+inline constexpr scene::SettingInfo kLowResolution{"lowResolution", "1, 2, 4", "1",
+                                            "pixels per edge of a texel for media"};
+std::uint32_t readLowResolution(scene::SettingsReader& reader);
+/// The image's size in such texels.
+VkExtent2D lowExtent(const Inputs& inputs, std::uint32_t lowResolution);
+
 /// Layers blended with "over": what `unordered` and `sorted` share.
 class OverLayers {
   public:
     /// `name` of the method's prefix, e.g. "oit.sorted".
-    OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs);
+    OverLayers(gpu::Device& device, const std::string& name, const Inputs& inputs,
+               std::uint32_t lowResolution);
 
-    /// Passes "<name>.clear" and "<name>.store", the latter alone within callers' rendering. `order`: uint[spheres + boxes] as written by an
-    /// earlier pass, or empty for the order of submission.
+    /// Passes "<name>.clear", "<name>.store_low" where media have a size of their own, and
+    /// "<name>.store"; the last is within callers' rendering. `order`: uint[spheres + boxes] as
+    /// written by an earlier pass, or empty for the order of submission.
     void declare(frame::FrameBuilder& frame, const Inputs& inputs, frame::BufferRef order) const;
 
   private:
+    LayerPassDesc describePass(const char* suffix, const CallersRendering& callers) const;
+    frame::ImageRef declareLow(frame::FrameBuilder& frame, const Inputs& inputs,
+                               frame::BufferRef order) const;
+
     std::string mName;
+    std::uint32_t mLowResolution;
     Solids mSolids;
-    LayerPass mPass;
+    LayerPass mLow, mPass;
+    gpu::GraphicsPipeline mUpsample;
 };
 
 /// A full-screen pass that composes what layers have left: pass `name` writes inputs.result.
@@ -119,7 +143,7 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
 
 /// Declares and records such a pass: reads `images` (binding, image) and draws. `push` (may be
 /// empty) sets the push constants.
-void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
+frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
                     const std::function<void(gpu::Commands&)>& push = {});

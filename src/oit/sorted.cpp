@@ -22,9 +22,9 @@ using frame::Access;
 
 class Sorted final : public OitMethod {
   public:
-    Sorted(gpu::Device& device, const Inputs& inputs)
+    Sorted(gpu::Device& device, const Inputs& inputs, std::uint32_t lowResolution)
         : mCount(inputs.sphereCount + inputs.boxCount),
-          mLayers(device, "oit.sorted", inputs),
+          mLayers(device, "oit.sorted", inputs, lowResolution),
           mKeysPipeline(device, {.name = "oit.sorted.keys",
                                  .spirv = spv::oit_sorted_keys_comp,
                                  .bindings = join(frameBindings(), mediaBindings()),
@@ -78,12 +78,12 @@ const MethodInfo& info() {
         .paper = "Porter, Duff: Compositing Digital Images, 1984",
         .exactness = Exactness::Approximate,
         .passes = "1 sort + 1 raster",
-        .bytesPerPixel = "0 (16 per medium; 40 with solids)",
+        .bytesPerPixel = "0 (16 per medium; 40 with solids; lowResolution n: 16 / n^2)",
         .limits =
             "overlapping media are not mixed; surfaces come after all media; colour of "
             "transmission is averaged",
         .weaknesses = {Weakness::Overlap, Weakness::Surfaces, Weakness::Colour},
-        .settings = {}};
+        .settings = {kLowResolution}};
     return kInfo;
 }
 
@@ -91,8 +91,10 @@ const MethodInfo& Sorted::info() const { return sorted::info(); }
 
 std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
                                   const scene::Settings& settings) {
-    scene::SettingsReader(settings, "setting up method sorted").finish();
-    return std::make_unique<Sorted>(device, inputs);
+    scene::SettingsReader reader(settings, "setting up method sorted");
+    const std::uint32_t lowResolution = readLowResolution(reader);
+    reader.finish();
+    return std::make_unique<Sorted>(device, inputs, lowResolution);
 }
 
 }  // namespace brume::oit::sorted

@@ -10,23 +10,35 @@
 //         software devices; masks are never tabulated, so that no alpha is too small for them;
 //         colours have thresholds of their own with one random number for all three; a medium stops
 //         light where its loss so far reaches the sample's threshold, a free flight.
-// Limits: noise; samples share their place in the pixel, edges are smoothed by the image's
-//         supersampling only; bricks and boxes count as homogeneous inside; empty pixels of `alpha`
-//         lose the layers' radiance.
+//         Edges are smoothed by supersampling the image, whose pixels then share one mask.
+//         Adaptive: each pass has a mask of its own, and a pixel gets no more of them once its
+//         standard error, as found from how passes differ, is small enough.
+// Limits: noise; bricks and boxes count as homogeneous inside; empty pixels of `alpha` lose the
+//         layers' radiance; what no sample has met yet has no variance, so that adaptive pixels with
+//         nothing but very rare light may end too early.
 // Cost: per 16 samples (coloured: 8) two raster passes; bytes per pixel as info() says.
+#include <core/error.hpp>
 #include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
 
+#include <shaders/common/frame_bindings.h>
 #include <shaders/oit/stochastic/stochastic.h>
+#include <spv/common/screen.vert.hpp>
+#include <spv/oit/stochastic/collect.frag.hpp>
+#include <spv/oit/stochastic/filter.frag.hpp>
 #include <spv/oit/stochastic/gather_media.frag.hpp>
 #include <spv/oit/stochastic/gather_solid.frag.hpp>
 #include <spv/oit/stochastic/gather_surface.frag.hpp>
 #include <spv/oit/stochastic/resolve.frag.hpp>
+#include <spv/oit/stochastic/stop.frag.hpp>
 #include <spv/oit/stochastic/store_media.frag.hpp>
 #include <spv/oit/stochastic/store_solid.frag.hpp>
 #include <spv/oit/stochastic/store_surface.frag.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 
 namespace brume::oit::stochastic {
 namespace {
@@ -35,12 +47,21 @@ using frame::Access;
 
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
+constexpr VkFormat kMaskFormat = VK_FORMAT_D32_SFLOAT;
+
+/// Two passes of 16 are the fewest that have a variance.
+constexpr std::uint32_t kLeastAdaptive = 32;
+
 struct Settings {
     std::uint32_t samples = 4;
     bool isNaive = false;
     std::uint32_t estimator = shader::kEstimatorDepthAlpha;
     std::uint32_t seed = shader::kSeedPrimitive;
     std::uint32_t pattern = 0;
+    float error = 0;  ///< > 0: adaptive
+    std::uint32_t filter = 0;
+
+    bool isAdaptive() const { return error > 0; }
 };
 
 template <std::size_t N>
@@ -51,8 +72,11 @@ std::uint32_t indexOf(const std::string& word, const char* const (&words)[N]) {
 Settings readSettings(const scene::Settings& given) {
     scene::SettingsReader reader(given, "setting up method stochastic");
     Settings s;
+    s.error = static_cast<float>(reader.number("error", 0, 0, 1));
     s.samples = static_cast<std::uint32_t>(
-        std::stoul(reader.choice("samples", "4", {"1", "2", "4", "8", "16", "32", "64"})));
+        std::stoul(reader.choice("samples", s.isAdaptive() ? "256" : "4",
+                                 {"1", "2", "4", "8", "16", "32", "64", "128", "256", "512",
+                                  "1024"})));
     s.isNaive = reader.choice("mask", "stratified", {"naive", "stratified"}) == "naive";
     // In the order of kEstimator... and kSeed...
     static constexpr const char* kEstimators[] = {"basic", "alpha", "depth", "depth_alpha"};
@@ -62,9 +86,28 @@ Settings readSettings(const scene::Settings& given) {
         kEstimators);
     s.seed = indexOf(reader.choice("seed", "primitive", {"primitive", "object", "depth"}), kSeeds);
     s.pattern = static_cast<std::uint32_t>(reader.integer("pattern", 0, 0, 0xffffffffll));
+    s.filter = static_cast<std::uint32_t>(reader.integer("filter", 0, 0, 16));
     reader.finish();
+    if (s.filter > 0 && s.estimator == shader::kEstimatorBasic)
+        throw inputError("setting up method stochastic", "estimator 'basic'",
+                         "cannot be filtered: its background is noise too; take depth_alpha");
+    if (s.isAdaptive() && s.samples < kLeastAdaptive)
+        throw inputError("setting up method stochastic",
+                         fmt::format("samples {}", s.samples),
+                         fmt::format("with 'error' they are the most that a pixel gets: at least {}",
+                                     kLeastAdaptive));
     return s;
 }
+
+/// Sums over the passes of an adaptive frame, and which pixels take no more part.
+struct AdaptiveTargets {
+    frame::ImageRef means, squares, sum, weights, mask;
+};
+
+struct Targets {
+    frame::ImageRef total, sum, weights;  // weights: of colours
+    AdaptiveTargets all;
+};
 
 class Stochastic final : public OitMethod {
   public:
@@ -73,26 +116,40 @@ class Stochastic final : public OitMethod {
     const MethodInfo& info() const override;
     void prepare(const MeasureFunction&) override {}
     void declare(frame::FrameBuilder& frame, const Inputs& inputs) override;
-    std::map<std::string, std::uint64_t> counters() override {
-        return {{"samplePasses", mPassCount}};
-    }
+    std::map<std::string, std::uint64_t> counters() override;
     std::map<std::string, std::uint64_t> bytes() const override { return {}; }
 
   private:
+    std::uint32_t samplesPerPass() const { return shader::kSamplesPerImage * mImagesPerChannel; }
     std::uint32_t imageCount() const { return mImagesPerChannel * (mIsColoured ? 3 : 1); }
-    std::vector<std::uint32_t> constants() const;
-    LayerPassDesc describeStore(bool withTotal) const;
-    LayerPassDesc describeGather() const;
-    void declareStep(frame::FrameBuilder& frame, const Inputs& inputs, const SolidTargets& solids,
-                     std::uint32_t step, frame::ImageRef total,
-                     const std::vector<frame::ImageRef>& sums) const;
+    std::vector<std::uint32_t> layerConstants(std::uint32_t supersample) const;
+    LayerPassDesc describePass(const char* suffix, const LayerShaders& shaders) const;
+    void makeLayerPasses(gpu::Device& device, const Inputs& inputs);
+    void makeAdaptivePasses(gpu::Device& device);
+    void makeResolves(gpu::Device& device);
+
+    Targets makeTargets(frame::FrameBuilder& frame, const Inputs& inputs) const;
+    std::vector<frame::ImageRef> declareStore(frame::FrameBuilder& frame, const Inputs& inputs,
+                                              const SolidTargets& solids, const Targets& targets,
+                                              std::uint32_t step) const;
+    void declareGather(frame::FrameBuilder& frame, const Inputs& inputs,
+                       const SolidTargets& solids, const Targets& targets,
+                       const std::vector<frame::ImageRef>& samples, std::uint32_t step) const;
+    void declareCollect(frame::FrameBuilder& frame, const Inputs& inputs, const Targets& targets,
+                        std::uint32_t step) const;
+    void declareStop(frame::FrameBuilder& frame, const Inputs& inputs,
+                     const Targets& targets) const;
+    void declareResolves(frame::FrameBuilder& frame, const Inputs& inputs,
+                         const Targets& targets) const;
 
     Settings mSettings;
     bool mIsColoured;
     std::uint32_t mImagesPerChannel, mPassCount;
+    std::vector<std::uint32_t> mEstimateConstants;
     Solids mSolids;
     LayerPass mStore, mStoreMore, mGather;
-    gpu::GraphicsPipeline mResolve;
+    gpu::GraphicsPipeline mCollect, mStop, mResolve, mFilter;
+    gpu::Buffer mCounters, mCountersRead;
 };
 
 Stochastic::Stochastic(gpu::Device& device, const Inputs& inputs, const Settings& settings)
@@ -102,77 +159,166 @@ Stochastic::Stochastic(gpu::Device& device, const Inputs& inputs, const Settings
     const std::uint32_t groups = std::max(settings.samples / shader::kSamplesPerImage, 1u);
     mImagesPerChannel = std::min(groups, mIsColoured ? 2u : 4u);
     mPassCount = groups / mImagesPerChannel;
-    mStore = LayerPass(device, inputs, describeStore(true));
-    if (mPassCount > 1) mStoreMore = LayerPass(device, inputs, describeStore(false));
-    mGather = LayerPass(device, inputs, describeGather());
-    mResolve = makeResolve(device, "oit.stochastic.resolve", spv::oit_stochastic_resolve_frag,
-                           {{shader::kBindingStochasticTotal, gpu::BindingType::SampledImage},
-                            {shader::kBindingStochasticSum, gpu::BindingType::SampledImage},
-                            {shader::kBindingStochasticWeights, gpu::BindingType::SampledImage}},
-                           {mIsColoured, mSettings.estimator});
+    mEstimateConstants = {mIsColoured, settings.estimator, settings.isAdaptive(),
+                          std::bit_cast<std::uint32_t>(settings.error), settings.filter};
+    makeLayerPasses(device, inputs);
+    if (settings.isAdaptive()) makeAdaptivePasses(device);
+    makeResolves(device);
 }
 
-std::vector<std::uint32_t> Stochastic::constants() const {
+std::vector<std::uint32_t> Stochastic::layerConstants(std::uint32_t supersample) const {
     const bool seesWinners = mSettings.estimator == shader::kEstimatorBasic ||
                              mSettings.estimator == shader::kEstimatorAlpha;
-    return {mSettings.samples, mImagesPerChannel, mSettings.isNaive,
-            mSettings.seed,    mSettings.pattern, seesWinners};
+    // An adaptive pixel may end after any pass: each is stratified by itself.
+    const std::uint32_t samples = mSettings.isAdaptive() ? samplesPerPass() : mSettings.samples;
+    // One mask spreads over all samples of a pixel of the image, each at its own place in it.
+    const std::uint32_t edge =
+        std::has_single_bit(supersample) && samples >= shader::kSamplesPerImage ? supersample : 1;
+    return {samples * edge * edge, mImagesPerChannel,
+            mSettings.isNaive,     mSettings.seed,
+            mSettings.pattern,     seesWinners,
+            mSettings.isAdaptive(), edge};
 }
 
-LayerPassDesc Stochastic::describeStore(bool withTotal) const {
-    gpu::Blend total = gpu::Blend::additive(), nearest = gpu::Blend::additive();
-    if (!withTotal) total.writeMask = 0;  // the first pass has added it up
+LayerPassDesc Stochastic::describePass(const char* suffix, const LayerShaders& shaders) const {
+    LayerPassDesc desc;
+    desc.name = std::string("oit.stochastic") + suffix;
+    desc.shaders = shaders;
+    desc.depthFormat = mSettings.isAdaptive() ? kMaskFormat : VK_FORMAT_UNDEFINED;
+    desc.depthUse = DepthUse::Test;
+    return desc;
+}
+
+void Stochastic::makeLayerPasses(gpu::Device& device, const Inputs& inputs) {
+    gpu::Blend nearest = gpu::Blend::additive();
     nearest.colorOp = nearest.alphaOp = VK_BLEND_OP_MIN;
-    std::vector<gpu::ColorTarget> colors(1 + imageCount(), {kFormat, nearest});
-    colors[0].blend = total;
-    return {.name = "oit.stochastic.store",
-            .shaders = {spv::oit_stochastic_store_media_frag,
-                        spv::oit_stochastic_store_surface_frag,
-                        spv::oit_stochastic_store_solid_frag},
-            .bindings = {},
-            .specialization = constants(),
-            .colors = colors};
-}
+    LayerPassDesc store = describePass(
+        ".store", {spv::oit_stochastic_store_media_frag, spv::oit_stochastic_store_surface_frag,
+                   spv::oit_stochastic_store_solid_frag});
+    store.specialization = layerConstants(inputs.supersample);
+    store.colors.assign(1 + imageCount(), {kFormat, nearest});
+    store.colors[0].blend = gpu::Blend::additive();
+    mStore = LayerPass(device, inputs, store);
+    store.colors[0].blend.writeMask = 0;  // the first pass has added up the total
+    if (mPassCount > 1) mStoreMore = LayerPass(device, inputs, store);
 
-LayerPassDesc Stochastic::describeGather() const {
-    std::vector<gpu::Binding> bindings;
+    LayerPassDesc gather = describePass(
+        ".gather", {spv::oit_stochastic_gather_media_frag, spv::oit_stochastic_gather_surface_frag,
+                    spv::oit_stochastic_gather_solid_frag});
+    gather.specialization = store.specialization;
+    gather.colors.assign(mIsColoured ? 2 : 1, {kFormat, gpu::Blend::additive()});
     for (std::uint32_t i = 0; i < shader::kMaxSampleImages; ++i)
-        bindings.push_back({shader::kBindingSamples + i, gpu::BindingType::SampledImage});
-    return {.name = "oit.stochastic.gather",
-            .shaders = {spv::oit_stochastic_gather_media_frag,
-                        spv::oit_stochastic_gather_surface_frag,
-                        spv::oit_stochastic_gather_solid_frag},
-            .bindings = bindings,
-            .specialization = constants(),
-            .colors = std::vector<gpu::ColorTarget>(mIsColoured ? 2 : 1,
-                                                    {kFormat, gpu::Blend::additive()})};
+        gather.bindings.push_back({shader::kBindingSamples + i, gpu::BindingType::SampledImage});
+    mGather = LayerPass(device, inputs, gather);
 }
 
-void Stochastic::declareStep(frame::FrameBuilder& frame, const Inputs& inputs,
-                             const SolidTargets& solids, std::uint32_t step, frame::ImageRef total,
-                             const std::vector<frame::ImageRef>& sums) const {
-    const gpu::LoadOp load = step == 0 ? gpu::LoadOp::Clear : gpu::LoadOp::Load;
+/// Images of the passes that follow the layers.
+std::vector<gpu::Binding> sampled(std::initializer_list<std::uint32_t> numbers) {
+    std::vector<gpu::Binding> bindings;
+    for (const std::uint32_t number : numbers)
+        bindings.push_back({number, gpu::BindingType::SampledImage});
+    return bindings;
+}
+
+void Stochastic::makeAdaptivePasses(gpu::Device& device) {
+    gpu::GraphicsPipelineDesc collect{
+        .name = "oit.stochastic.collect",
+        .vertexSpirv = spv::common_screen_vert,
+        .fragmentSpirv = spv::oit_stochastic_collect_frag,
+        .bindings = sampled({shader::kBindingOpaqueColor, shader::kBindingStochasticTotal,
+                             shader::kBindingStochasticSum, shader::kBindingStochasticWeights}),
+        .specialization = mEstimateConstants,
+        .colors = {},
+        .depthFormat = kMaskFormat,
+        .depthTest = true};
+    collect.colors.assign(mIsColoured ? 4 : 3, {kFormat, gpu::Blend::additive()});
+    mCollect = gpu::GraphicsPipeline(device, collect);
+    mStop = gpu::GraphicsPipeline(
+        device, {.name = "oit.stochastic.stop",
+                 .vertexSpirv = spv::common_screen_vert,
+                 .fragmentSpirv = spv::oit_stochastic_stop_frag,
+                 .bindings = sampled({shader::kBindingStochasticMeans,
+                                      shader::kBindingStochasticSquares}),
+                 .specialization = mEstimateConstants,
+                 .depthFormat = kMaskFormat,
+                 .depthTest = true,
+                 .depthWrite = true});
+    const auto makeCounters = [&](const char* name, gpu::MemoryKind memory) {
+        return gpu::Buffer(device, {.name = std::string("oit.stochastic.") + name,
+                                    .bytes = sizeof(shader::StochasticCounters),
+                                    .memory = memory});
+    };
+    mCounters = makeCounters("counters", gpu::MemoryKind::Device);
+    mCountersRead = makeCounters("counters_read", gpu::MemoryKind::Readback);
+}
+
+void Stochastic::makeResolves(gpu::Device& device) {
+    std::vector<gpu::Binding> bindings =
+        sampled({shader::kBindingStochasticTotal, shader::kBindingStochasticSum,
+                 shader::kBindingStochasticWeights, shader::kBindingStochasticMeans,
+                 shader::kBindingStochasticSquares});
+    mResolve =
+        makeResolve(device, "oit.stochastic.resolve", spv::oit_stochastic_resolve_frag, bindings,
+                    mEstimateConstants, sizeof(shader::StochasticResolvePush));
+    if (mSettings.filter > 0)
+        mFilter = makeResolve(
+            device, "oit.stochastic.filter", spv::oit_stochastic_filter_frag,
+            sampled({shader::kBindingStochasticTotal, shader::kBindingStochasticLayers}),
+            mEstimateConstants);
+}
+
+Targets Stochastic::makeTargets(frame::FrameBuilder& frame, const Inputs& inputs) const {
+    const auto make = [&](const char* name, VkFormat format = kFormat) {
+        return makeLayerTarget(frame, inputs, std::string("oit.stochastic.") + name, format);
+    };
+    Targets targets{make("total"), make("sum"), {}, {}};
+    if (mIsColoured) targets.weights = make("weights");
+    if (!mSettings.isAdaptive()) return targets;
+    targets.all = {make("means"), make("squares"), make("sum_of_all"), {},
+                   make("mask", kMaskFormat)};
+    if (mIsColoured) targets.all.weights = make("weights_of_all");
+    frame.addPass("oit.stochastic.open")
+        .depth(targets.all.mask, gpu::LoadOp::Clear)
+        .record([](gpu::Commands&, const frame::PassResources&) {});
+    return targets;
+}
+
+std::vector<frame::ImageRef> Stochastic::declareStore(frame::FrameBuilder& frame,
+                                                      const Inputs& inputs,
+                                                      const SolidTargets& solids,
+                                                      const Targets& targets,
+                                                      std::uint32_t step) const {
     std::vector<frame::ImageRef> samples;
     frame::PassBuilder& store = frame.addPass("oit.stochastic.store");
     LayerPass::declareReads(store, inputs, solids);
-    store.color(total, load);
+    store.color(targets.total, step == 0 ? gpu::LoadOp::Clear : gpu::LoadOp::Load);
     for (std::uint32_t i = 0; i < imageCount(); ++i) {
         samples.push_back(makeLayerTarget(frame, inputs, "oit.stochastic.samples", kFormat));
         const float far = shader::kNoSample;
         store.color(samples.back(), gpu::LoadOp::Clear, {far, far, far, far});
     }
+    if (targets.all.mask) store.depthTest(targets.all.mask);
     store.record([this, inputs, solids, step](gpu::Commands& commands,
                                               const frame::PassResources& resources) {
         (step == 0 ? mStore : mStoreMore)
             .record(commands, resources, inputs, solids, {.step = step});
     });
+    return samples;
+}
 
+void Stochastic::declareGather(frame::FrameBuilder& frame, const Inputs& inputs,
+                               const SolidTargets& solids, const Targets& targets,
+                               const std::vector<frame::ImageRef>& samples,
+                               std::uint32_t step) const {
+    const bool isFirst = step == 0 || mSettings.isAdaptive();
     frame::PassBuilder& gather = frame.addPass("oit.stochastic.gather");
     LayerPass::declareReads(gather, inputs, solids);
     for (const frame::ImageRef image : samples) gather.reads(image, Access::FragmentSample);
-    for (const frame::ImageRef sum : sums) gather.color(sum, load);
+    for (const frame::ImageRef sum : {targets.sum, targets.weights})
+        if (sum) gather.color(sum, isFirst ? gpu::LoadOp::Clear : gpu::LoadOp::Load);
+    if (targets.all.mask) gather.depthTest(targets.all.mask);
     const auto bind = [inputs, samples](gpu::Commands& commands,
-                                                   const frame::PassResources& resources) {
+                                        const frame::PassResources& resources) {
         // Bindings that the specialised shader does not read get any of them.
         for (std::uint32_t i = 0; i < shader::kMaxSampleImages; ++i)
             commands.bind(shader::kBindingSamples + i,
@@ -185,18 +331,101 @@ void Stochastic::declareStep(frame::FrameBuilder& frame, const Inputs& inputs,
     });
 }
 
+/// Declares and records a triangle over the screen that reads these images.
+void declareScreen(frame::PassBuilder& pass, const Inputs& inputs,
+                   const gpu::GraphicsPipeline& pipeline,
+                   const std::vector<std::pair<std::uint32_t, frame::ImageRef>>& images) {
+    for (const auto& [binding, image] : images) pass.reads(image, Access::FragmentSample);
+    pass.record([inputs, images, &pipeline](gpu::Commands& commands,
+                                            const frame::PassResources& resources) {
+        commands.bindGraphics(pipeline);
+        for (const auto& [binding, image] : images)
+            commands.bind(binding, resources.image(image), *inputs.texelSampler);
+        commands.draw(3);
+    });
+}
+
+void Stochastic::declareCollect(frame::FrameBuilder& frame, const Inputs& inputs,
+                                const Targets& targets, std::uint32_t step) const {
+    const gpu::LoadOp load = step == 0 ? gpu::LoadOp::Clear : gpu::LoadOp::Load;
+    const AdaptiveTargets& all = targets.all;
+    frame::PassBuilder& pass = frame.addPass("oit.stochastic.collect");
+    for (const frame::ImageRef target : {all.means, all.squares, all.sum, all.weights})
+        if (target) pass.color(target, load);
+    pass.depthTest(all.mask);
+    declareScreen(pass, inputs, mCollect,
+                  {{shader::kBindingOpaqueColor, inputs.opaqueColor},
+                   {shader::kBindingStochasticTotal, targets.total},
+                   {shader::kBindingStochasticSum, targets.sum},
+                   {shader::kBindingStochasticWeights,
+                    targets.weights ? targets.weights : targets.sum}});
+}
+
+void Stochastic::declareStop(frame::FrameBuilder& frame, const Inputs& inputs,
+                             const Targets& targets) const {
+    frame::PassBuilder& pass = frame.addPass("oit.stochastic.stop");
+    pass.depth(targets.all.mask, gpu::LoadOp::Load);
+    declareScreen(pass, inputs, mStop,
+                  {{shader::kBindingStochasticMeans, targets.all.means},
+                   {shader::kBindingStochasticSquares, targets.all.squares}});
+}
+
+void Stochastic::declareResolves(frame::FrameBuilder& frame, const Inputs& inputs,
+                                 const Targets& targets) const {
+    const bool isAdaptive = mSettings.isAdaptive(), isFiltered = mSettings.filter > 0;
+    // Bindings that the specialised shader does not read get any image.
+    const frame::ImageRef sum = isAdaptive ? targets.all.sum : targets.sum;
+    const frame::ImageRef weights = isAdaptive ? targets.all.weights : targets.weights;
+    const VkDeviceAddress counters = isAdaptive ? mCounters.deviceAddress() : 0;
+    Inputs shown = inputs;
+    if (isFiltered) shown.result = makeLayerTarget(frame, inputs, "oit.stochastic.layers", kFormat);
+    if (isAdaptive) {
+        frame.addPass("oit.stochastic.clear_counters")
+            .writes(frame.importBuffer(mCounters), Access::TransferWrite)
+            .record([this](gpu::Commands& commands, const frame::PassResources&) {
+                commands.fillBuffer(mCounters, 0);
+            });
+    }
+    frame::PassBuilder& resolve = declareResolve(
+        frame, shown, "oit.stochastic.resolve", mResolve,
+        {{shader::kBindingStochasticTotal, targets.total},
+         {shader::kBindingStochasticSum, sum},
+         {shader::kBindingStochasticWeights, weights ? weights : sum},
+         {shader::kBindingStochasticMeans, isAdaptive ? targets.all.means : sum},
+         {shader::kBindingStochasticSquares, isAdaptive ? targets.all.squares : sum}},
+        [counters](gpu::Commands& commands) {
+            commands.pushConstants(shader::StochasticResolvePush{counters});
+        });
+    if (isAdaptive) {
+        resolve.readsWrites(frame.importBuffer(mCounters), Access::FragmentWrite);
+        frame.addReadback("oit.stochastic.counters_read", frame.importBuffer(mCounters),
+                          mCountersRead);
+    }
+    if (isFiltered)
+        declareResolve(frame, inputs, "oit.stochastic.filter", mFilter,
+                       {{shader::kBindingStochasticTotal, targets.total},
+                        {shader::kBindingStochasticLayers, shown.result}});
+}
+
 void Stochastic::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     const SolidTargets solids = mSolids.declare(frame, inputs);
-    const frame::ImageRef total = makeLayerTarget(frame, inputs, "oit.stochastic.total", kFormat);
-    std::vector<frame::ImageRef> sums = {makeLayerTarget(frame, inputs, "oit.stochastic.sum", kFormat)};
-    if (mIsColoured) sums.push_back(makeLayerTarget(frame, inputs, "oit.stochastic.weights", kFormat));
-    for (std::uint32_t step = 0; step < mPassCount; ++step)
-        declareStep(frame, inputs, solids, step, total, sums);
+    const Targets targets = makeTargets(frame, inputs);
+    for (std::uint32_t step = 0; step < mPassCount; ++step) {
+        const auto samples = declareStore(frame, inputs, solids, targets, step);
+        declareGather(frame, inputs, solids, targets, samples, step);
+        if (!mSettings.isAdaptive()) continue;
+        declareCollect(frame, inputs, targets, step);
+        if (step > 0 && step + 1 < mPassCount) declareStop(frame, inputs, targets);
+    }
+    declareResolves(frame, inputs, targets);
+}
 
-    declareResolve(frame, inputs, "oit.stochastic.resolve", mResolve,
-                   {{shader::kBindingStochasticTotal, total},
-                    {shader::kBindingStochasticSum, sums.front()},
-                    {shader::kBindingStochasticWeights, sums.back()}});
+std::map<std::string, std::uint64_t> Stochastic::counters() {
+    if (!mSettings.isAdaptive()) return {{"samplePasses", mPassCount}};
+    const auto counted = mCountersRead.mappedAs<shader::StochasticCounters>()[0];
+    return {{"samplePasses", mPassCount},
+            {"samplesTaken", std::uint64_t{counted.passes} * samplesPerPass()},
+            {"pixelsAboveError", counted.unended}};
 }
 
 }  // namespace
@@ -209,10 +438,16 @@ const MethodInfo& info() {
         .paper = "Enderton, Sintorn, Shirley, Luebke: Stochastic Transparency, 2011",
         .exactness = Exactness::Approximate,
         .passes = "2 raster per 16 samples (8 with colours) + 1 resolve",
-        .bytesPerPixel = "32 + 4 S, S <= 16 samples in a pass; 48 + 12 S, S <= 8 with colours",
+        .bytesPerPixel = "32 + 4 S, S <= 16 samples in a pass; 48 + 12 S, S <= 8 with colours; "
+                         "adaptive: 52 more, 68 with colours; filter: 16 more",
         .limits = "noise; bricks and boxes count as homogeneous inside",
         .weaknesses = {Weakness::Noise, Weakness::Profile, Weakness::Emission},
-        .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64", "4", "per pixel"},
+        .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024", "4",
+                      "per pixel; with an error at most, and 256 if not given"},
+                     {"error", "0..1", "0",
+                      "standard error (relative above 1) that ends a pixel; 0: all get all samples"},
+                     {"filter", "0..16 pixels", "0",
+                      "radius of a cross-bilateral filter against noise"},
                      {"mask", "naive, stratified", "stratified",
                       "samples chosen each by itself, or as even shares"},
                      {"estimator", "basic, alpha, depth, depth_alpha", "depth_alpha",

@@ -12,8 +12,8 @@ namespace {
 
 class Unordered final : public OitMethod {
   public:
-    Unordered(gpu::Device& device, const Inputs& inputs)
-        : mLayers(device, "oit.unordered", inputs) {}
+    Unordered(gpu::Device& device, const Inputs& inputs, std::uint32_t lowResolution)
+        : mLayers(device, "oit.unordered", inputs, lowResolution) {}
 
     const MethodInfo& info() const override;
     void prepare(const MeasureFunction&) override {}
@@ -36,10 +36,11 @@ const MethodInfo& info() {
         .paper = "Porter, Duff: Compositing Digital Images, 1984",
         .exactness = Exactness::Approximate,
         .passes = "1 raster",
-        .bytesPerPixel = "0 (40 with solids)",
+        .bytesPerPixel = "0 (40 with solids; lowResolution n: 16 / n^2)",
         .limits = "ignores order, overlap and colour of transmission",
-        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces, Weakness::Colour},
-        .settings = {}};
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
+                       Weakness::Colour},
+        .settings = {kLowResolution}};
     return kInfo;
 }
 
@@ -47,8 +48,10 @@ const MethodInfo& Unordered::info() const { return unordered::info(); }
 
 std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
                                   const scene::Settings& settings) {
-    scene::SettingsReader(settings, "setting up method unordered").finish();
-    return std::make_unique<Unordered>(device, inputs);
+    scene::SettingsReader reader(settings, "setting up method unordered");
+    const std::uint32_t lowResolution = readLowResolution(reader);
+    reader.finish();
+    return std::make_unique<Unordered>(device, inputs, lowResolution);
 }
 
 }  // namespace brume::oit::unordered

@@ -6,7 +6,7 @@
 // Equations: eq. 2 -> depthFromLoss() and resolve.frag; eq. 3, 4, 13 -> resolve.frag; eq. 5 ->
 //         weightAt(); eq. 6, 7 -> blurOf(); eq. 8, 9 -> refractionOf(); section 5 -> background.glsl.
 // Differs: beta is kept as a sum of -ln (listing 1 multiplies 8 bits, which lose faint layers, and
-//         by a third, against eq. 2); the mean radiance is shared out by the mean of 1 - beta, so
+//         by a third, against eq. 2; `packed` has its 8 bits); the mean radiance is shared out by the mean of 1 - beta, so
 //         that a single layer of any colour is exact; weights are a power of the view distance (eq.
 //         5 takes gl_FragCoord.z, which depends on near and far); eq. 7 squares the reach twice, we
 //         once; eq. 8 as Snell's law; offsets are averaged by coverage; a gathered pixel counts
@@ -32,6 +32,7 @@ namespace {
 using frame::Access;
 
 enum class Precision {
+    Packed,   ///< the paper's: transmittance in 8 bits, no room to normalise offsets
     Half,    ///< 16-bit floats: faint layers beyond some hundred are lost
     Single,  ///< 32-bit floats
     Exact    ///< depths as two 32-bit sums: beta to 1e-6 after thousands of faint layers
@@ -57,15 +58,15 @@ Settings readSettings(const scene::Settings& given) {
         return static_cast<float>(reader.number(key, fallback, lo, hi));
     };
     Settings s;
-    const std::string precision = reader.choice("precision", "single", {"half", "single", "exact"});
-    s.precision = precision == "half"    ? Precision::Half
+    const std::string precision = reader.choice("precision", "single", {"packed", "half", "single", "exact"});
+    s.precision = precision == "packed"  ? Precision::Packed
+                  : precision == "half"  ? Precision::Half
                   : precision == "exact" ? Precision::Exact
                                          : Precision::Single;
     s.depthPower = number("depthPower", s.depthPower, 0, 16);
     s.weightDistance = number("weightDistance", s.weightDistance, 1e-6, 1e6);
     s.selfModulation = number("selfModulation", s.selfModulation, 0, 1);
-    s.lowResolution = static_cast<std::uint32_t>(
-        std::stoul(reader.choice("lowResolution", "1", {"1", "2", "4"})));
+    s.lowResolution = readLowResolution(reader);
     s.diffusion = reader.boolean("diffusion", s.diffusion);
     s.refraction = reader.boolean("refraction", s.refraction);
     s.diffusionWidth = number("diffusionWidth", s.diffusionWidth, 1e-6, 1e3);
@@ -94,8 +95,11 @@ class Weighted final : public OitMethod {
     std::map<std::string, std::uint64_t> bytes() const override { return {}; }
 
   private:
+    bool isPacked() const { return mSettings.precision == Precision::Packed; }
     VkFormat sumFormat() const;
     VkFormat depthFormat() const;
+    VkFormat offsetFormat() const { return isPacked() ? mPackedOffset : sumFormat(); }
+    gpu::Blend depthBlend() const;
     bool hasFine() const { return mIsColoured && mSettings.precision == Precision::Exact; }
     bool isLow() const { return mSettings.lowResolution > 1; }
     std::vector<gpu::ColorTarget> colors(bool withOffset) const;
@@ -109,6 +113,7 @@ class Weighted final : public OitMethod {
                         const Targets& low) const;
 
     Settings mSettings;
+    VkFormat mPackedOffset;
     bool mTakesHostLayers, mIsColoured, mDiffuses, mRefracts;
     Solids mSolids;
     LayerPass mStore, mStoreLow;
@@ -117,6 +122,9 @@ class Weighted final : public OitMethod {
 
 Weighted::Weighted(gpu::Device& device, const Inputs& inputs, const Settings& settings)
     : mSettings(settings),
+      // Not every device adds up signed bytes.
+      mPackedOffset(device.canBlend(VK_FORMAT_R8G8_SNORM) ? VK_FORMAT_R8G8_SNORM
+                                                          : VK_FORMAT_R16G16_SFLOAT),
       mTakesHostLayers(inputs.needs.hostLayers),
       mIsColoured(isColoured(inputs.needs) || mTakesHostLayers ||
                   (inputs.needs.diffusion && settings.diffusion)),
@@ -135,17 +143,19 @@ Weighted::Weighted(gpu::Device& device, const Inputs& inputs, const Settings& se
                            resolveBindings(),
                            {mIsColoured, mSettings.precision == Precision::Exact, mDiffuses,
                             mRefracts, bits(mSettings.selfModulation), mSettings.lowResolution,
-                            mSettings.diffusionTaps});
+                            mSettings.diffusionTaps, isPacked()});
 }
 
 VkFormat Weighted::sumFormat() const {
-    return mSettings.precision == Precision::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
+    return mSettings.precision <= Precision::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
                                                   : VK_FORMAT_R32G32B32A32_SFLOAT;
 }
 
 VkFormat Weighted::depthFormat() const {
-    if (mIsColoured) return sumFormat();
+    if (mIsColoured) return isPacked() ? VK_FORMAT_R8G8B8A8_UNORM : sumFormat();
     switch (mSettings.precision) {
+        case Precision::Packed:
+            return VK_FORMAT_R8_UNORM;
         case Precision::Half:
             return VK_FORMAT_R16_SFLOAT;
         case Precision::Single:
@@ -156,10 +166,19 @@ VkFormat Weighted::depthFormat() const {
     return VK_FORMAT_R32G32_SFLOAT;
 }
 
+/// Depths and squared blurs add up; packed transmittances multiply.
+gpu::Blend Weighted::depthBlend() const {
+    gpu::Blend blend = gpu::Blend::additive();
+    if (!isPacked()) return blend;
+    blend.sourceColor = VK_BLEND_FACTOR_ZERO;
+    blend.targetColor = VK_BLEND_FACTOR_SRC_COLOR;
+    return blend;
+}
+
 std::vector<gpu::ColorTarget> Weighted::colors(bool withOffset) const {
     std::vector<gpu::ColorTarget> targets = {{sumFormat(), gpu::Blend::additive()},
-                                             {depthFormat(), gpu::Blend::additive()}};
-    if (withOffset) targets.push_back({sumFormat(), gpu::Blend::additive()});
+                                             {depthFormat(), depthBlend()}};
+    if (withOffset) targets.push_back({offsetFormat(), gpu::Blend::additive()});
     if (hasFine()) targets.push_back({sumFormat(), gpu::Blend::additive()});
     return targets;
 }
@@ -167,7 +186,7 @@ std::vector<gpu::ColorTarget> Weighted::colors(bool withOffset) const {
 LayerPassDesc Weighted::describePass(const char* suffix, std::uint32_t scale,
                                      bool withOffset) const {
     // 30 as in eq. 5: sums of 16-bit floats end at 65504.
-    const float maxWeight = mSettings.precision == Precision::Half ? 30.0f : 1e12f;
+    const float maxWeight = mSettings.precision <= Precision::Half ? 30.0f : 1e12f;
     return {.name = std::string("oit.weighted") + suffix,
             .shaders = {spv::oit_weighted_media_frag, spv::oit_weighted_surface_frag,
                         spv::oit_weighted_solid_frag},
@@ -175,7 +194,8 @@ LayerPassDesc Weighted::describePass(const char* suffix, std::uint32_t scale,
             .specialization = {mSettings.precision == Precision::Exact, bits(mSettings.depthPower),
                                bits(mSettings.weightDistance), bits(maxWeight), mDiffuses,
                                withOffset, bits(mSettings.diffusionWidth),
-                               bits(mSettings.diffusionReach), bits(mSettings.refractionDistance)},
+                               bits(mSettings.diffusionReach), bits(mSettings.refractionDistance),
+                               isPacked()},
             .colors = colors(withOffset),
             .scale = scale,
             .drawsSolidFaces = withOffset};
@@ -199,13 +219,16 @@ Targets Weighted::makeTargets(frame::FrameBuilder& frame, const char* suffix, Vk
     };
     return {make("sum", sumFormat()), make("depth", depthFormat()),
             hasFine() ? make("fine", sumFormat()) : frame::ImageRef{},
-            withOffset ? make("offset", sumFormat()) : frame::ImageRef{}};
+            withOffset ? make("offset", offsetFormat()) : frame::ImageRef{}};
 }
 
 frame::PassBuilder& Weighted::addStore(frame::FrameBuilder& frame, const char* name,
                                        const Targets& targets) const {
     frame::PassBuilder& pass = frame.addPass(name);
-    for (const frame::ImageRef target : {targets.sum, targets.depth, targets.offset, targets.fine})
+    const float one = isPacked() ? 1.0f : 0.0f;
+    pass.color(targets.sum, gpu::LoadOp::Clear)
+        .color(targets.depth, gpu::LoadOp::Clear, {one, one, one, 0});
+    for (const frame::ImageRef target : {targets.offset, targets.fine})
         if (target) pass.color(target, gpu::LoadOp::Clear);
     return pass;
 }
@@ -242,11 +265,7 @@ void Weighted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
             .handOver();
     Targets low;
     if (isLow()) {
-        const std::uint32_t scale = mSettings.lowResolution;
-        low = makeTargets(frame, "_low",
-                          {(inputs.extent.width + scale - 1) / scale,
-                           (inputs.extent.height + scale - 1) / scale},
-                          false);
+        low = makeTargets(frame, "_low", lowExtent(inputs, mSettings.lowResolution), false);
         addPass("oit.weighted.store_low", low, mStoreLow);
     }
     declareResolve(frame, inputs, full, low);
@@ -264,18 +283,20 @@ const MethodInfo& info() {
         .exactness = Exactness::Approximate,
         .passes = "1 raster + 1 resolve",
         .bytesPerPixel = "20; 32 with colours or diffusion; 16 more with refraction; half: 10, 16, "
-                         "8; exact: 24, 48, 16",
+                         "8; exact: 24, 48, 16; packed: 9, 12, 2 (4 where signed bytes do not "
+                         "blend)",
         .limits = "near layers do not hide far ones of another radiance as they should; overlapping "
                   "media are not mixed",
         .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
                        Weakness::Emission},
         .settings = {
-            {"precision", "half, single, exact", "single",
-             "of the sums; exact keeps thousands of faint layers to 1e-6"},
+            {"precision", "packed, half, single, exact", "single",
+             "of the sums; packed: the formats of the paper; exact keeps thousands of faint layers "
+             "to 1e-6"},
             {"depthPower", "0..16", "2", "weight = (weightDistance / distance)^depthPower"},
             {"weightDistance", "1e-6..1e6 m", "5", "where the weight is 1; matters for half"},
             {"selfModulation", "0..1", "0", "how far layers take the hue of the transmittance; 0.5 in the paper"},
-            {"lowResolution", "1, 2, 4", "1", "pixels per edge of a texel for media"},
+            kLowResolution,
             {"diffusion", "true, false", "true", "surfaces with collimation < 1 blur what is behind"},
             {"refraction", "true, false", "false", "surfaces displace what is behind"},
             {"diffusionWidth", "1e-6..1e3 m", "0.1", "blur at distance 1 by collimation 0"},

@@ -420,6 +420,7 @@ void GpuScene::recordContent(gpu::Commands& commands) {
 oit::Inputs GpuScene::makeInputs() const {
     return {.needs = mNeeds,
             .extent = extent(),
+            .supersample = static_cast<std::uint32_t>(mPrepared->scene.image.supersample),
             .frame = &mFrame,
             .lights = &mLights,
             .media = &mMedia,

@@ -246,6 +246,76 @@ TEST_F(Stochastic, ErrorOnSmoke_FallsWithTheSamples) {
     }
 }
 
+TEST_F(Stochastic, Supersamples_ShareOneMask) {
+    // Four places with four samples each are as good as one place with a mask of sixteen.
+    const auto measureError = [&](int supersample, const char* samples) {
+        PaneScene s = makeScene(kTwoLayers, 48);
+        s.scene.image.supersample = supersample;
+        const Image image =
+            renderWith(s, "stochastic", {{"estimator", "basic"}, {"samples", samples}});
+        Image truth = image;
+        std::fill(truth.pixels.begin(), truth.pixels.end(), vec3(computeTruth(kTwoLayers)));
+        return computeRmse(image, truth);
+    };
+    const double four = measureError(1, "4"), sixteen = measureError(1, "16"),
+                 shared = measureError(2, "4");
+    RecordProperty("rmse", fmt::format("{:.3e} {:.3e} {:.3e}", four, sixteen, shared));
+    EXPECT_NEAR(shared, sixteen, 0.1 * sixteen);
+    EXPECT_LT(shared, 0.45 * four) << "four masks of their own would give a half";
+}
+
+TEST_F(Stochastic, Adaptive_ReachesTheErrorAskedForWithFewerSamples) {
+    TestScene s = makeSmoke(32, 10);
+    s.scene.meshes.clear();
+    const Image expected = renderReferenceOf(s);
+    for (const char* how : {"basic", "depth_alpha"}) {
+        for (const double error : {0.02, 0.01}) {
+            const render::Result result = render(
+                s, {.method = "stochastic",
+                    .settings = {{"estimator", how}, {"error", fmt::format("{}", error)}}});
+            const double rmse = computeRmse(result.image, expected);
+            const double taken = static_cast<double>(result.counters.at("samplesTaken")) / 1024;
+            RecordProperty(fmt::format("{}_{}", how, error),
+                           fmt::format("rmse {:.3e}, {:.0f} samples, {} above", rmse, taken,
+                                       result.counters.at("pixelsAboveError")));
+            EXPECT_LE(rmse, error) << how;
+            EXPECT_LE(taken, 128) << how << ": half of what all would take";
+        }
+    }
+}
+
+TEST_F(Stochastic, Adaptive_TakesSamplesWhereTheNoiseIs) {
+    // The left half is empty, the right one has layers that hide each other.
+    PaneScene s = makeScene(kTwoLayers, 32);
+    for (scene::Mesh& mesh : s.scene.meshes)
+        for (vec3& position : mesh.positions) position.x = std::max(position.x, 0.0f);
+    const render::Result result = render(
+        s, {.method = "stochastic",
+            .settings = {{"estimator", "basic"}, {"error", "0.001"}, {"samples", "64"}}});
+    // Sixteen to a pass; empty pixels end after two.
+    EXPECT_NEAR(static_cast<double>(result.counters.at("samplesTaken")), 512 * (32 + 64), 512 * 4);
+    EXPECT_GT(result.counters.at("pixelsAboveError"), 400u);
+}
+
+TEST_F(Stochastic, Filter_TakesNoiseOutAndLeavesTheBackgroundSharp) {
+    TestScene s = makeSmoke(64, 10);
+    s.scene.meshes.clear();
+    const Image expected = renderReferenceOf(s);
+    const auto measureError = [&](const char* filter) {
+        return computeRmse(renderWith(s, "stochastic", {{"samples", "4"}, {"filter", filter}}),
+                           expected);
+    };
+    const double plain = measureError("0"), filtered = measureError("2");
+    RecordProperty("rmse", fmt::format("{:.3e} {:.3e}", plain, filtered));
+    EXPECT_LE(filtered, 0.75 * plain);
+}
+
+TEST_F(Stochastic, SettingsThatContradict_AreRefused) {
+    const TestScene s = makeSmoke(8, 2);
+    EXPECT_THROW(renderWith(s, "stochastic", {{"estimator", "basic"}, {"filter", "2"}}), Error);
+    EXPECT_THROW(renderWith(s, "stochastic", {{"error", "0.01"}, {"samples", "16"}}), Error);
+}
+
 TEST_F(Stochastic, SeedPrimitive_KeepsTheNoiseOfWhatMoves) {
     const auto renderAt = [&](double distance, const char* seed) {
         PaneScene s(16, dvec3(0));

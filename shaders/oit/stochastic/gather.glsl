@@ -45,7 +45,7 @@ vec3 countSeen(Layer layer) {
 }
 
 void storeLayer(Layer layer) {
-    vec3 seen = countSeen(layer) / float(max(kSamples, 4u));
+    vec3 seen = countSeen(layer) * sampleShare();
     // What only glows counts as a very thin layer.
     vec3 loss = mix(layer.loss, vec3(1e-7), lessThan(layer.loss, vec3(1e-7)));
     vec3 weight = kWinners ? seen : seen * loss;

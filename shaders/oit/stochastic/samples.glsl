@@ -12,6 +12,8 @@ layout(constant_id = kStochasticImages) const uint kImages = 1u;
 layout(constant_id = kStochasticNaive) const bool kNaive = false;
 layout(constant_id = kStochasticSeed) const uint kSeed = kSeedPrimitive;
 layout(constant_id = kStochasticPattern) const uint kPattern = 0u;
+layout(constant_id = kStochasticAdaptive) const bool kAdaptive = false;
+layout(constant_id = kStochasticEdge) const uint kEdge = 1u;
 
 // All orders of 0 1 2 3, two bits each.
 const uint kOrders[24] = uint[24](0xe4u, 0xb4u, 0xd8u, 0x78u, 0x9cu, 0x6cu, 0xe1u, 0xb1u, 0xc9u,
@@ -27,9 +29,10 @@ Noise makeNoise(Layer layer) {
     uint seed = kSeed == kSeedPrimitive ? layer.primitive
                 : kSeed == kSeedObject  ? layer.object
                                         : floatBitsToUint(layer.t.x);
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uvec2 pixel = uvec2(gl_FragCoord.xy) / kEdge;
     Noise noise;
     noise.key = pcg3d(uvec3(pixel.x | pixel.y << 16u, seed, kPattern));
+    if (kAdaptive) noise.key = pcg3d(noise.key + push.step);
     noise.shift = unitFloat(pcg3d(noise.key).x);
     return noise;
 }
@@ -79,6 +82,15 @@ vec4 sampleDistances(Layer layer, uint channel, vec4 thresholds) {
                       min(depthFromLoss(flight) / max(layer.depth[channel], 1e-30), vec4(1.0)));
 }
 
-uint firstGroup() { return push.step * kImages; }
+// Groups of four samples: those of earlier passes come before this one's, and those of a pixel's
+// earlier sub-pixels before this sub-pixel's.
+uint firstGroup() {
+    uvec2 place = uvec2(gl_FragCoord.xy) % kEdge;
+    uint groups = max(kSamples / 4u, 1u) / (kEdge * kEdge);
+    return (place.y * kEdge + place.x) * groups + (kAdaptive ? 0u : push.step * kImages);
+}
+
+// What one sample of a pixel stands for.
+float sampleShare() { return float(kEdge * kEdge) / float(max(kSamples, 4u)); }
 
 #endif

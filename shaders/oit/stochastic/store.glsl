@@ -8,7 +8,7 @@ layout(location = 0) out vec4 total;
 layout(location = 1) out vec4 distances[kMaxSampleImages];
 
 void storeLayer(Layer layer) {
-    total = vec4(layer.depth, 0.0);
+    total = vec4(layer.depth, meanOf(layer.radiance));
     Noise noise = makeNoise(layer);
     for (uint i = 0u; i < kMaxSampleImages; ++i) distances[i] = vec4(kNoSample);
     for (uint i = 0u; i < kImages; ++i) {

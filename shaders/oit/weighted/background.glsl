@@ -6,6 +6,7 @@
 layout(constant_id = kResolveDiffusion) const bool kDiffusion = false;
 layout(constant_id = kResolveRefraction) const bool kRefraction = false;
 layout(constant_id = kResolveTaps) const uint kTaps = 24u;
+layout(constant_id = kResolvePacked) const bool kPacked = false;
 layout(binding = kBindingOpaqueColor) uniform sampler2D opaqueColor;
 layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 layout(binding = kBindingWeightedDepth) uniform sampler2D depthSums;
@@ -19,12 +20,16 @@ ivec2 clampPixel(vec2 pixel) {
 // refracting surface is not seen through it.
 vec2 refract(vec2 pixel) {
     vec4 sum = texelFetch(offsetSums, ivec2(pixel), 0);
+    if (kPacked) return pixel + sum.xy * kPackedOffset;  // no room for coverage and distance
     vec2 displaced = pixel + sum.xy / max(sum.z, 1.0);
     bool isBehind = texelFetch(opaqueT, clampPixel(displaced), 0).x * sum.z > sum.w;
     return isBehind ? displaced : pixel;
 }
 
-float blurAt(ivec2 pixel) { return sqrt(min(texelFetch(depthSums, pixel, 0).a, kMaxBlur * kMaxBlur)); }
+float blurAt(ivec2 pixel) {
+    float variance = texelFetch(depthSums, pixel, 0).a;
+    return kPacked ? kMaxBlur * sqrt(variance) : min(sqrt(variance), kMaxBlur);
+}
 
 // A tap counts when it lies within two standard deviations of both blurs: neither does a sharp
 // thing before the pane bleed into its surroundings, nor does what touches the pane from behind.

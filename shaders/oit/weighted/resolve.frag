@@ -33,16 +33,19 @@ void main() {
     if (kScale > 1u) {
         LowTexels texels = findLowTexels(opaqueT, pixel, kScale);
         sum += readLow(lowSums, texels);
-        depth += readLow(lowDepthSums, texels);
+        vec4 low = readLow(lowDepthSums, texels);
+        depth = kPacked ? vec4(depth.rgb * low.rgb, depth.a) : depth + low;
         if (kColoured && kSplit) fine += readLow(lowFineSums, texels);
     }
     // Nobody has touched it: nothing refracts or blurs either.
-    if (sum.a == 0.0 && depth == vec4(0) && !kRefraction) {
+    vec4 nothing = !kPacked ? vec4(0) : kColoured ? vec4(1, 1, 1, 0) : vec4(1, 0, 0, 1);
+    if (sum.a == 0.0 && depth == nothing && !kRefraction) {
         result = vec4(texelFetch(opaqueColor, pixel, 0).rgb, 1.0);
         return;
     }
     vec3 total = max(joinDepth(depth, fine), vec3(0));
-    vec3 beta = exp(-total), lost = total * meanDecay(total, beta);
+    vec3 beta = kPacked ? total : exp(-total);
+    vec3 lost = kPacked ? 1.0 - beta : total * meanDecay(total, beta);
     // Half-precision sums end at infinity.
     vec3 layers = min(sum.rgb, vec3(3e38)) / clamp(sum.a, 1e-37, 3e38);
     // Eq. 13: the layers filter each other by half of the hue with which all filter the background.

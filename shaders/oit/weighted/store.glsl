@@ -10,6 +10,7 @@ layout(constant_id = kWeightedPower) const float kPower = 3.0;
 layout(constant_id = kWeightedDistance) const float kDistance = 1.0;
 layout(constant_id = kWeightedMaxWeight) const float kMaxWeight = 1e12;
 layout(constant_id = kWeightedRefraction) const bool kRefraction = false;
+layout(constant_id = kWeightedPacked) const bool kPacked = false;
 
 layout(location = 0) out vec4 sum;
 layout(location = 1) out vec4 depthSum;  // colours and squared blur, or coarse and fine
@@ -36,6 +37,9 @@ void storeWeighted(Layer layer, vec4 offset, float blur2) {
     depthSum = kColoured ? vec4(coarse, blur2) : vec4(coarse.x, fine.x, 0.0, 0.0);
     extra = kRefraction ? offset : vec4(fine, 0.0);
     extra2 = vec4(fine, 0.0);
+    if (!kPacked) return;
+    depthSum = vec4(1.0 - layer.loss, blur2 / (kMaxBlur * kMaxBlur));
+    extra = vec4(offset.xy / kPackedOffset, 0.0, 0.0);
 }
 
 void storeLayer(Layer layer) { storeWeighted(layer, vec4(0), 0.0); }

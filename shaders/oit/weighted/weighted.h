@@ -16,6 +16,7 @@ BRUME_CONST uint kWeightedRefraction = 9u;  // bool
 BRUME_CONST uint kWeightedBlurWidth = 10u;  // float, m: k0 of eq. 6
 BRUME_CONST uint kWeightedBlurReach = 11u;  // float, m: k1 of eq. 7
 BRUME_CONST uint kWeightedBehind = 12u;     // float, m: delta z of eq. 9
+BRUME_CONST uint kWeightedPacked = 13u;     // bool: the formats of the paper
 
 // Specialization constants of the resolve.
 BRUME_CONST uint kResolveColoured = 0u;
@@ -25,10 +26,11 @@ BRUME_CONST uint kResolveRefraction = 3u;
 BRUME_CONST uint kResolveSelfModulation = 4u;  // float in [0, 1]: 0.5 is eq. 13
 BRUME_CONST uint kResolveScale = 5u;           // of the media's targets, 1: they have none
 BRUME_CONST uint kResolveTaps = 6u;            // of the gather; 0: all of the disk
+BRUME_CONST uint kResolvePacked = 7u;          // bool
 
 // Bindings of the resolve.
 BRUME_CONST uint kBindingWeightedSum = 8u;        // sum of w (radiance, loss)
-BRUME_CONST uint kBindingWeightedDepth = 9u;      // sum of -ln(transmittance)
+BRUME_CONST uint kBindingWeightedDepth = 9u;      // sum of -ln(transmittance); packed: the product
 BRUME_CONST uint kBindingWeightedFine = 10u;      // its fine part, where coloured
 BRUME_CONST uint kBindingWeightedOffset = 11u;    // sum of coverage (offset in pixels, 1, distance)
 BRUME_CONST uint kBindingWeightedLowSum = 12u;    // of the media at low resolution
@@ -38,6 +40,7 @@ BRUME_CONST uint kBindingWeightedLowFine = 14u;
 // Coarse sums are multiples of 2^-16: exact in fp32 up to 256, whatever the order.
 BRUME_CONST float kCoarseStep = 1.0f / 65536.0f;
 BRUME_CONST float kMaxBlur = 48.0f;  // standard deviation, pixels
+BRUME_CONST float kPackedOffset = 64.0f;  // pixels, the largest sum of offsets that is packed
 
 BRUME_STRUCTS_END
 #endif

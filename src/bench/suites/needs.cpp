@@ -12,7 +12,7 @@ namespace {
 
 /// Smoke before and behind two panes, under ambient light and one sun without shadows.
 scene::Scene makePlainScene() {
-    SceneBuilder b(dvec3(0, 0.8, 5), dvec3(0, 0.6, 0), 40);
+    Builder b(dvec3(0, 0.8, 5), dvec3(0, 0.6, 0), 40);
     b.scene.image = {320, 180, 1};
     b.scene.background.radiance = dvec3(0.3, 0.4, 0.5);
     addDaylight(b.scene);
