@@ -59,7 +59,8 @@ Table makePassTable(std::span<const Measurement> measurements) {
     Table table{.title = "Every pass beside its roofline",
                 .notes = {"Roof: the longer of the times that its bytes take at the measured bandwidth "
                           "and its fragments at the measured fill rate. Bytes: all that it declares to "
-                          "read and to write, once each; a pass that touches part of them may stay "
+                          "read and to write, once each; fragments: shader invocations, of which "
+                          "software devices count whole blocks; a pass that touches part of its bytes may stay "
                           "below the roof, one that computes much is far above it."},
                 .header = {"scene", "method", "pass", "ms", "p05..p95", "MB", "fragments", "roof ms",
                            "ms / roof"},

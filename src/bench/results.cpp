@@ -37,16 +37,37 @@ Json describe(const SimulationCost& cost) {
 
 }  // namespace
 
+namespace {
+
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// One row per line: such files are kept and compared.
+template <typename Rows, typename Describe>
+std::string dumpList(const char* key, const Rows& rows, const Describe& describeRow) {
+    std::string text = fmt::format(",\n\"{}\": [", key);
+    bool isFirst = true;
+    for (const auto& row : rows) {
+        text += (isFirst ? "\n" : ",\n") + dump(describeRow(row));
+        isFirst = false;
+    }
+    return text + "]";
+}
+
+}  // namespace
+
 std::string toJson(const Results& results) {
-    Json json = {{"machine", describe(results.machine)}, {"command", results.command}};
-    json["rows"] = Json::array();
-    for (const Measurement& m : results.frames) json["rows"].push_back(describe(m.row));
-    if (!results.shadows.empty()) json["shadows"] = Json::array();
-    for (const ShadowRow& row : results.shadows) json["shadows"].push_back(describe(row));
-    if (!results.simulation.empty()) json["simulation"] = Json::array();
-    for (const SimulationCost& cost : results.simulation)
-        json["simulation"].push_back(describe(cost));
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string text = "{\"machine\": " + dump(describe(results.machine)) +
+                       ",\n\"command\": " + dump(results.command);
+    text += dumpList("rows", results.frames, [](const Measurement& m) { return describe(m.row); });
+    if (!results.shadows.empty())
+        text += dumpList("shadows", results.shadows,
+                         [](const ShadowRow& row) { return describe(row); });
+    if (!results.simulation.empty())
+        text += dumpList("simulation", results.simulation,
+                         [](const SimulationCost& cost) { return describe(cost); });
+    return text + "}\n";
 }
 
 std::string describeMachine(const Machine& m) {

@@ -256,7 +256,7 @@ scene::Scene makeMeshSpheres() {
     for (int i = 0; i < 1000; ++i) {
         const dvec3 cell(i % 10, i / 10 % 10, i / 100);
         if (i < 10) b.addThin(0.5, dvec3(0), 0.2 + 0.6 * dvec3(i % 3 == 0, i % 3 == 1, 0.1 * i));
-        b.addMesh(scene::makeSphere(0.36, 12), static_cast<std::uint32_t>((i * 7 + i / 100) % 10),
+        b.addMesh(scene::makeSphere(0.42, 12), static_cast<std::uint32_t>((i * 7 + i / 100) % 10),
                   place(cell - 4.5));
     }
     return b.scene;

@@ -145,7 +145,10 @@ bench::Results measure(const BenchArguments& arguments, gpu::Device& device, con
     options.keepImages = !arguments.report.empty();
     options.findScenes = [&](const std::string& name) { return findScenes(name, log); };
     Progress progress("measuring");
-    options.progress = [&](const std::string&, double fraction) { progress.update(fraction); };
+    options.progress = [&](const std::string& what, double fraction) {
+        progress.update(fraction);
+        log.info(fmt::format("measuring {}, {:.0f} % of its suite", what, 100 * fraction));
+    };
     bench::Yardstick yardstick(device);
     bench::Results results;
     results.command = arguments.command;
@@ -163,7 +166,11 @@ void runBench(const BenchArguments& given, const Log& log) {
     if (!given.compare.empty()) return compareRuns(given);
     BenchArguments arguments = given;
     if (arguments.repeats == 0) arguments.repeats = arguments.isQuick ? kQuickRepeats : 20;
-    findSuites(arguments.suites);  // wrong names before anything is opened
+    // Wrong names before anything is opened.
+    findSuites(arguments.suites);
+    if (arguments.suites.empty())
+        for (const bench::Plan& plan : makePlans(arguments))
+            if (plan.kind != bench::PlanKind::Simulation) findScenes(plan.scene, log);
     const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
     const bench::Results results = measure(arguments, *device, log);
     printResults(results);
