@@ -30,6 +30,11 @@ using frame::Access;
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr std::uint64_t kKeyBytes = 8;
 
+/// The layers behind the nearest K, and which pixels have any.
+struct Tail {
+    frame::ImageRef sum, depth, touched;
+};
+
 class KBuffer final : public OitMethod {
   public:
     KBuffer(gpu::Device& device, const Inputs& inputs, std::uint32_t layers);
@@ -46,7 +51,7 @@ class KBuffer final : public OitMethod {
     void declareKeys(frame::FrameBuilder& frame, const Inputs& inputs,
                      const SolidTargets& solids) const;
     void declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const SolidTargets& solids,
-                      frame::ImageRef sum, frame::ImageRef depth) const;
+                      const Tail& tail) const;
 
     std::uint32_t mLayers;
     std::uint64_t mSlots;
@@ -73,11 +78,13 @@ KBuffer::KBuffer(gpu::Device& device, const Inputs& inputs, std::uint32_t layers
                           spv::oit_k_buffer_store_solid_frag},
               .bindings = {},
               .specialization = {layers},
-              .colors = {{kFormat, gpu::Blend::additive()}, {kFormat, gpu::Blend::additive()}}}),
+              .colors = {{kFormat, gpu::Blend::additive()}, {kFormat, gpu::Blend::additive()}},
+              .depthFormat = kTouchedFormat,
+              .depthUse = DepthUse::Mark}),
       mResolve(makeResolve(device, "oit.k_buffer.resolve", spv::oit_k_buffer_resolve_frag,
                            {{shader::kBindingTailSum, gpu::BindingType::SampledImage},
                             {shader::kBindingTailDepth, gpu::BindingType::SampledImage}},
-                           {layers}, sizeof(shader::KResolvePush))),
+                           {layers}, sizeof(shader::KResolvePush), true)),
       mData(device, {.name = "oit.k_buffer.layers",
                      .bytes = mSlots * (kKeyBytes + sizeof(shader::KLayer))}) {}
 
@@ -99,13 +106,13 @@ void KBuffer::declareKeys(frame::FrameBuilder& frame, const Inputs& inputs,
 }
 
 void KBuffer::declareStore(frame::FrameBuilder& frame, const Inputs& inputs,
-                           const SolidTargets& solids, frame::ImageRef sum,
-                           frame::ImageRef depth) const {
+                           const SolidTargets& solids, const Tail& tail) const {
     frame::PassBuilder& pass = frame.addPass("oit.k_buffer.store");
     LayerPass::declareReads(pass, inputs, solids);
     pass.readsWrites(frame.importBuffer(mData), Access::FragmentWrite)
-        .color(sum, gpu::LoadOp::Clear)
-        .color(depth, gpu::LoadOp::Clear);
+        .color(tail.sum, gpu::LoadOp::Clear)
+        .color(tail.depth, gpu::LoadOp::Clear)
+        .depth(tail.touched, gpu::LoadOp::Clear);
     pass.record([this, inputs, solids](gpu::Commands& commands,
                                        const frame::PassResources& resources) {
         mStore.record(commands, resources, inputs, solids, {.data = mData.deviceAddress()});
@@ -115,15 +122,16 @@ void KBuffer::declareStore(frame::FrameBuilder& frame, const Inputs& inputs,
 void KBuffer::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     const SolidTargets solids = mSolids.declare(frame, inputs);
     declareKeys(frame, inputs, solids);
-    const frame::ImageRef sum = makeLayerTarget(frame, inputs, "oit.k_buffer.tail_sum", kFormat);
-    const frame::ImageRef depth =
-        makeLayerTarget(frame, inputs, "oit.k_buffer.tail_depth", kFormat);
-    declareStore(frame, inputs, solids, sum, depth);
+    const Tail tail{makeLayerTarget(frame, inputs, "oit.k_buffer.tail_sum", kFormat),
+                    makeLayerTarget(frame, inputs, "oit.k_buffer.tail_depth", kFormat),
+                    makeLayerTarget(frame, inputs, "oit.k_buffer.touched", kTouchedFormat)};
+    declareStore(frame, inputs, solids, tail);
     declareResolve(frame, inputs, "oit.k_buffer.resolve", mResolve,
-                   {{shader::kBindingTailSum, sum}, {shader::kBindingTailDepth, depth}},
+                   {{shader::kBindingTailSum, tail.sum}, {shader::kBindingTailDepth, tail.depth}},
                    [this](gpu::Commands& commands) {
                        commands.pushConstants(shader::KResolvePush{mData.deviceAddress()});
-                   });
+                   },
+                   tail.touched);
 }
 
 }  // namespace
@@ -136,7 +144,7 @@ const MethodInfo& info() {
                  "the k-Buffer, 2007",
         .exactness = Exactness::Approximate,
         .passes = "2 raster + 1 resolve",
-        .bytesPerPixel = "32 K + 32 (40 more with solids)",
+        .bytesPerPixel = "32 K + 34 (40 more with solids)",
         .limits = "overlapping media are not mixed; needs 64-bit atomics on buffers",
         .weaknesses = {Weakness::ManyLayers, Weakness::Overlap},
         .settings = {{"layers", "1..64", "8", "K, how many are kept in order"}}};

@@ -88,7 +88,8 @@ SolidTargets Solids::declare(frame::FrameBuilder& frame, const Inputs& inputs) c
 
 LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassDesc& desc,
                      std::uint32_t kinds)
-    : mDrawsSolidFaces(desc.drawsSolidFaces || (inputs.needs.glossy && inputs.needs.solids)) {
+    : mDrawsSolidFaces(desc.drawsSolidFaces || (inputs.needs.glossy && inputs.needs.solids)),
+      mMarks(desc.depthFormat != VK_FORMAT_UNDEFINED && desc.depthUse == DepthUse::Mark) {
     std::vector<std::uint32_t> constants = {inputs.needs.boxes, inputs.needs.varyingDensity,
                                             isColoured(inputs.needs), desc.scale};
     constants.insert(constants.end(), desc.specialization.begin(), desc.specialization.end());
@@ -109,7 +110,9 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                      .colors = desc.colors,
                      .depthFormat = desc.depthFormat,
                      .depthTest = isTested,
-                     .depthWrite = hasDepth && desc.depthUse == DepthUse::TestAndWrite});
+                     .depthWrite = isTested && desc.depthUse != DepthUse::Test,
+                     .depthCompare = mMarks ? VK_COMPARE_OP_ALWAYS
+                                            : VK_COMPARE_OP_GREATER_OR_EQUAL});
     };
     if ((kinds & kLayersMedia) != 0 && (inputs.needs.spheres || inputs.needs.boxes))
         mMedia = make("_media", spv::oit_layers_media_vert, desc.shaders.media, mediaBindings());
@@ -182,6 +185,10 @@ void LayerPass::recordSolids(gpu::Commands& commands, const frame::PassResources
 void LayerPass::record(gpu::Commands& commands, const frame::PassResources& resources,
                        const Inputs& inputs, const SolidTargets& solids,
                        const LayerUse& use) const {
+    // Whatever their depth, it shall not become 0.
+    if (mMarks)
+        commands.setViewport({0, 0, static_cast<float>(inputs.extent.width),
+                              static_cast<float>(inputs.extent.height), 0.5f, 1});
     recordMedia(commands, resources, inputs, use);
     recordSurfaces(commands, resources, inputs, use);
     recordSolids(commands, resources, inputs, solids, use);
@@ -260,14 +267,7 @@ frame::ImageRef OverLayers::declareLow(frame::FrameBuilder& frame, const Inputs&
 
 void OverLayers::declare(frame::FrameBuilder& frame, const Inputs& inputs,
                          frame::BufferRef order) const {
-    if (!inputs.callers)
-        frame.addPass(mName + ".clear")
-            .reads(inputs.opaqueColor, Access::TransferRead)
-            .writes(inputs.result, Access::TransferWrite)
-            .record([inputs](gpu::Commands& commands, const frame::PassResources& resources) {
-                commands.copyImage(resources.image(inputs.opaqueColor),
-                                   resources.image(inputs.result));
-            });
+    if (!inputs.callers) declareCopyOfOpaque(frame, inputs, mName + ".clear");
     const SolidTargets solids = mSolids.declare(frame, inputs);
     const frame::ImageRef low = declareLow(frame, inputs, order);
     frame::PassBuilder& pass = frame.addPass(mName + ".store");
@@ -294,7 +294,7 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> fragment,
                                   const std::vector<gpu::Binding>& bindings,
                                   const std::vector<std::uint32_t>& specialization,
-                                  std::uint32_t pushConstantBytes) {
+                                  std::uint32_t pushConstantBytes, bool skipsUntouched) {
     return {device,
             {.name = name,
              .vertexSpirv = spv::common_screen_vert,
@@ -305,18 +305,35 @@ gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                  bindings),
              .pushConstantBytes = pushConstantBytes,
              .specialization = specialization,
-             .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, {}}}}};
+             .colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, {}}},
+             .depthFormat = skipsUntouched ? kTouchedFormat : VK_FORMAT_UNDEFINED,
+             .depthTest = skipsUntouched,
+             .depthCompare = VK_COMPARE_OP_NOT_EQUAL}};
+}
+
+void declareCopyOfOpaque(frame::FrameBuilder& frame, const Inputs& inputs,
+                         const std::string& name) {
+    frame.addPass(name)
+        .reads(inputs.opaqueColor, Access::TransferRead)
+        .writes(inputs.result, Access::TransferWrite)
+        .record([inputs](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.copyImage(resources.image(inputs.opaqueColor),
+                               resources.image(inputs.result));
+        });
 }
 
 frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
-                    const std::function<void(gpu::Commands&)>& push) {
+                    const std::function<void(gpu::Commands&)>& push,
+                    frame::ImageRef touched) {
+    if (touched) declareCopyOfOpaque(frame, inputs, name + "_untouched");
     images.emplace_back(shader::kBindingOpaqueT, inputs.opaqueT);
     images.emplace_back(shader::kBindingOpaqueColor, inputs.opaqueColor);
     frame::PassBuilder& pass = frame.addPass(name);
     for (const auto& [binding, image] : images) pass.reads(image, Access::FragmentSample);
-    pass.color(inputs.result, gpu::LoadOp::DontCare);
+    pass.color(inputs.result, touched ? gpu::LoadOp::Load : gpu::LoadOp::DontCare);
+    if (touched) pass.depthTest(touched);
     pass.record([inputs, images, push, &pipeline](gpu::Commands& commands,
                                                   const frame::PassResources& resources) {
         commands.bindGraphics(pipeline);

@@ -46,9 +46,14 @@ struct LayerShaders {
 /// What layers do with an attached depth.
 enum class DepthUse {
     Idle,         ///< nothing
-    Test,         ///< where it is 1 none is drawn, where it is 0 all are
-    TestAndWrite  ///< the nearest stays
+    Test,          ///< where it is 1 none is drawn, where it is 0 all are
+    TestAndWrite,  ///< the nearest stays
+    Mark           ///< leave something else than 0 wherever they are
 };
+
+/// Which pixels layers have touched: a depth cleared to 0, which they mark. A resolve can then leave
+/// all others alone.
+inline constexpr VkFormat kTouchedFormat = VK_FORMAT_D16_UNORM;
 
 struct LayerPassDesc {
     std::string name;  ///< e.g. "oit.weighted.store"
@@ -99,6 +104,7 @@ class LayerPass {
                       const Inputs& inputs, const SolidTargets& solids, const LayerUse& use) const;
 
     bool mDrawsSolidFaces = false;
+    bool mMarks = false;
     gpu::GraphicsPipeline mMedia, mSurfaces, mSolids;
 };
 
@@ -135,18 +141,25 @@ class OverLayers {
 };
 
 /// A full-screen pass that composes what layers have left: pass `name` writes inputs.result.
+/// `skipsUntouched`: only where layers have marked.
 gpu::GraphicsPipeline makeResolve(gpu::Device& device, const std::string& name,
                                   std::span<const std::uint32_t> fragment,
                                   const std::vector<gpu::Binding>& bindings,
                                   const std::vector<std::uint32_t>& specialization,
-                                  std::uint32_t pushConstantBytes = 0);
+                                  std::uint32_t pushConstantBytes = 0,
+                                  bool skipsUntouched = false);
 
 /// Declares and records such a pass: reads `images` (binding, image) and draws. `push` (may be
-/// empty) sets the push constants.
+/// empty) sets the push constants. `touched`: the marks, for a pipeline that skips; the other pixels
+/// show what is opaque, by a copy in a pass "<name>_untouched".
 frame::PassBuilder& declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name,
                     const gpu::GraphicsPipeline& pipeline,
                     std::vector<std::pair<std::uint32_t, frame::ImageRef>> images,
-                    const std::function<void(gpu::Commands&)>& push = {});
+                    const std::function<void(gpu::Commands&)>& push = {},
+                    frame::ImageRef touched = {});
+
+/// Pass `name`: the result is what is opaque.
+void declareCopyOfOpaque(frame::FrameBuilder& frame, const Inputs& inputs, const std::string& name);
 
 /// A transient target as large as the image.
 frame::ImageRef makeLayerTarget(frame::FrameBuilder& frame, const Inputs& inputs,

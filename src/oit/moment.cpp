@@ -52,7 +52,7 @@ constexpr VkFormat kSums = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kRange = VK_FORMAT_R32G32_SFLOAT;
 
 struct Targets {
-    frame::ImageRef range, total, low, high, sum;
+    frame::ImageRef range, total, low, high, sum, touched;
 };
 
 class Moment final : public OitMethod {
@@ -100,7 +100,9 @@ Moment::Moment(gpu::Device& device, const Inputs& inputs, const Settings& settin
                                     spv::oit_moment_range_solid_frag},
                         .bindings = {},
                         .specialization = {},
-                        .colors = {{kRange, farthest}}});
+                        .colors = {{kRange, farthest}},
+                        .depthFormat = kTouchedFormat,
+                        .depthUse = DepthUse::Mark});
     mStore = LayerPass(device, inputs,
                        {.name = "oit.moment.store",
                         .shaders = {spv::oit_moment_store_media_frag,
@@ -118,7 +120,7 @@ Moment::Moment(gpu::Device& device, const Inputs& inputs, const Settings& settin
                          .specialization = constants,
                          .colors = {{kSums, gpu::Blend::additive()}}});
     mResolve = makeResolve(device, "oit.moment.resolve", spv::oit_moment_resolve_frag,
-                           sampled(shader::kBindingMomentSum, 2), {});
+                           sampled(shader::kBindingMomentSum, 2), {}, 0, true);
 }
 
 Targets Moment::makeTargets(frame::FrameBuilder& frame, const Inputs& inputs) const {
@@ -126,7 +128,7 @@ Targets Moment::makeTargets(frame::FrameBuilder& frame, const Inputs& inputs) co
         return makeLayerTarget(frame, inputs, std::string("oit.moment.") + name, format);
     };
     Targets targets{make("range", kRange), make("total", kSums), make("low", mSettings.format()),
-                    {}, make("sum", kSums)};
+                    {}, make("sum", kSums), make("touched", kTouchedFormat)};
     if (mSettings.moments > 4) targets.high = make("high", mSettings.format());
     return targets;
 }
@@ -155,7 +157,8 @@ void Moment::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     const SolidTargets solids = mSolids.declare(frame, inputs);
     const Targets targets = makeTargets(frame, inputs);
     frame::PassBuilder& range = frame.addPass("oit.moment.range");
-    range.color(targets.range, gpu::LoadOp::Clear, {-3e38f, 0, 0, 0});
+    range.color(targets.range, gpu::LoadOp::Clear, {-3e38f, 0, 0, 0})
+        .depth(targets.touched, gpu::LoadOp::Clear);
     declareLayers(inputs, solids, targets, mRange, range, 0);
 
     frame::PassBuilder& store = frame.addPass("oit.moment.store");
@@ -169,7 +172,8 @@ void Moment::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
 
     declareResolve(frame, inputs, "oit.moment.resolve", mResolve,
                    {{shader::kBindingMomentSum, targets.sum},
-                    {shader::kBindingMomentDepth, targets.total}});
+                    {shader::kBindingMomentDepth, targets.total}},
+                   {}, targets.touched);
 }
 
 }  // namespace
@@ -182,7 +186,7 @@ const MethodInfo& info() {
                  "Transparency, 2018",
         .exactness = Exactness::Approximate,
         .passes = "3 raster + 1 resolve",
-        .bytesPerPixel = "56; 72 with 6 or 8 moments; half: 48, 56",
+        .bytesPerPixel = "58; 74 with 6 or 8 moments; half: 50, 58",
         .limits = "stacks of discrete layers are smoothed; thick media come out too dark; overlapping media "
                   "are not mixed",
         .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,

@@ -106,6 +106,7 @@ struct AdaptiveTargets {
 
 struct Targets {
     frame::ImageRef total, sum, weights;  // weights: of colours
+    frame::ImageRef touched;              // if not adaptive
     AdaptiveTargets all;
 };
 
@@ -121,6 +122,7 @@ class Stochastic final : public OitMethod {
 
   private:
     std::uint32_t samplesPerPass() const { return shader::kSamplesPerImage * mImagesPerChannel; }
+    bool skipsUntouched() const { return !mSettings.isAdaptive() && mSettings.filter == 0; }
     std::uint32_t imageCount() const { return mImagesPerChannel * (mIsColoured ? 3 : 1); }
     std::vector<std::uint32_t> layerConstants(std::uint32_t supersample) const;
     LayerPassDesc describePass(const char* suffix, const LayerShaders& shaders) const;
@@ -198,8 +200,14 @@ void Stochastic::makeLayerPasses(gpu::Device& device, const Inputs& inputs) {
     store.specialization = layerConstants(inputs.supersample);
     store.colors.assign(1 + imageCount(), {kFormat, nearest});
     store.colors[0].blend = gpu::Blend::additive();
+    if (skipsUntouched()) {
+        store.depthFormat = kTouchedFormat;
+        store.depthUse = DepthUse::Mark;
+    }
     mStore = LayerPass(device, inputs, store);
-    store.colors[0].blend.writeMask = 0;  // the first pass has added up the total
+    // The first pass has added up the total, and marked.
+    store.colors[0].blend.writeMask = 0;
+    if (!mSettings.isAdaptive()) store.depthFormat = VK_FORMAT_UNDEFINED;
     if (mPassCount > 1) mStoreMore = LayerPass(device, inputs, store);
 
     LayerPassDesc gather = describePass(
@@ -259,7 +267,7 @@ void Stochastic::makeResolves(gpu::Device& device) {
                  shader::kBindingStochasticSquares});
     mResolve =
         makeResolve(device, "oit.stochastic.resolve", spv::oit_stochastic_resolve_frag, bindings,
-                    mEstimateConstants, sizeof(shader::StochasticResolvePush));
+                    mEstimateConstants, sizeof(shader::StochasticResolvePush), skipsUntouched());
     if (mSettings.filter > 0)
         mFilter = makeResolve(
             device, "oit.stochastic.filter", spv::oit_stochastic_filter_frag,
@@ -271,7 +279,8 @@ Targets Stochastic::makeTargets(frame::FrameBuilder& frame, const Inputs& inputs
     const auto make = [&](const char* name, VkFormat format = kFormat) {
         return makeLayerTarget(frame, inputs, std::string("oit.stochastic.") + name, format);
     };
-    Targets targets{make("total"), make("sum"), {}, {}};
+    Targets targets{make("total"), make("sum"), {}, {}, {}};
+    if (skipsUntouched()) targets.touched = make("touched", kTouchedFormat);
     if (mIsColoured) targets.weights = make("weights");
     if (!mSettings.isAdaptive()) return targets;
     targets.all = {make("means"), make("squares"), make("sum_of_all"), {},
@@ -298,6 +307,7 @@ std::vector<frame::ImageRef> Stochastic::declareStore(frame::FrameBuilder& frame
         store.color(samples.back(), gpu::LoadOp::Clear, {far, far, far, far});
     }
     if (targets.all.mask) store.depthTest(targets.all.mask);
+    if (targets.touched && step == 0) store.depth(targets.touched, gpu::LoadOp::Clear);
     store.record([this, inputs, solids, step](gpu::Commands& commands,
                                               const frame::PassResources& resources) {
         (step == 0 ? mStore : mStoreMore)
@@ -395,7 +405,8 @@ void Stochastic::declareResolves(frame::FrameBuilder& frame, const Inputs& input
          {shader::kBindingStochasticSquares, isAdaptive ? targets.all.squares : sum}},
         [counters](gpu::Commands& commands) {
             commands.pushConstants(shader::StochasticResolvePush{counters});
-        });
+        },
+        targets.touched);
     if (isAdaptive) {
         resolve.readsWrites(frame.importBuffer(mCounters), Access::FragmentWrite);
         frame.addReadback("oit.stochastic.counters_read", frame.importBuffer(mCounters),
@@ -438,8 +449,8 @@ const MethodInfo& info() {
         .paper = "Enderton, Sintorn, Shirley, Luebke: Stochastic Transparency, 2011",
         .exactness = Exactness::Approximate,
         .passes = "2 raster per 16 samples (8 with colours) + 1 resolve",
-        .bytesPerPixel = "32 + 4 S, S <= 16 samples in a pass; 48 + 12 S, S <= 8 with colours; "
-                         "adaptive: 52 more, 68 with colours; filter: 16 more",
+        .bytesPerPixel = "34 + 4 S, S <= 16 samples in a pass; 50 + 12 S, S <= 8 with colours; "
+                         "adaptive: 50 more, 66 with colours; filter: 14 more",
         .limits = "noise; bricks and boxes count as homogeneous inside",
         .weaknesses = {Weakness::Noise, Weakness::Profile, Weakness::Emission},
         .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024", "4",

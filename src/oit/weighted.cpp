@@ -81,7 +81,7 @@ std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 /// The images of one resolution.
 struct Targets {
-    frame::ImageRef sum, depth, fine, offset;
+    frame::ImageRef sum, depth, fine, offset, touched;
 };
 
 class Weighted final : public OitMethod {
@@ -102,6 +102,10 @@ class Weighted final : public OitMethod {
     gpu::Blend depthBlend() const;
     bool hasFine() const { return mIsColoured && mSettings.precision == Precision::Exact; }
     bool isLow() const { return mSettings.lowResolution > 1; }
+    /// Not where every bit counts, nor where layers come from elsewhere too.
+    bool marksTouched() const {
+        return mSettings.precision >= Precision::Single && !isLow() && !mTakesHostLayers;
+    }
     std::vector<gpu::ColorTarget> colors(bool withOffset) const;
     LayerPassDesc describePass(const char* suffix, std::uint32_t scale, bool withOffset) const;
     std::vector<gpu::Binding> resolveBindings() const;
@@ -143,7 +147,8 @@ Weighted::Weighted(gpu::Device& device, const Inputs& inputs, const Settings& se
                            resolveBindings(),
                            {mIsColoured, mSettings.precision == Precision::Exact, mDiffuses,
                             mRefracts, bits(mSettings.selfModulation), mSettings.lowResolution,
-                            mSettings.diffusionTaps, isPacked()});
+                            mSettings.diffusionTaps, isPacked()},
+                           0, marksTouched());
 }
 
 VkFormat Weighted::sumFormat() const {
@@ -198,7 +203,9 @@ LayerPassDesc Weighted::describePass(const char* suffix, std::uint32_t scale,
                                isPacked()},
             .colors = colors(withOffset),
             .scale = scale,
-            .drawsSolidFaces = withOffset};
+            .drawsSolidFaces = withOffset,
+            .depthFormat = marksTouched() ? kTouchedFormat : VK_FORMAT_UNDEFINED,
+            .depthUse = DepthUse::Mark};
 }
 
 std::vector<gpu::Binding> Weighted::resolveBindings() const {
@@ -219,7 +226,8 @@ Targets Weighted::makeTargets(frame::FrameBuilder& frame, const char* suffix, Vk
     };
     return {make("sum", sumFormat()), make("depth", depthFormat()),
             hasFine() ? make("fine", sumFormat()) : frame::ImageRef{},
-            withOffset ? make("offset", offsetFormat()) : frame::ImageRef{}};
+            withOffset ? make("offset", offsetFormat()) : frame::ImageRef{},
+            marksTouched() ? make("touched", kTouchedFormat) : frame::ImageRef{}};
 }
 
 frame::PassBuilder& Weighted::addStore(frame::FrameBuilder& frame, const char* name,
@@ -230,6 +238,7 @@ frame::PassBuilder& Weighted::addStore(frame::FrameBuilder& frame, const char* n
         .color(targets.depth, gpu::LoadOp::Clear, {one, one, one, 0});
     for (const frame::ImageRef target : {targets.offset, targets.fine})
         if (target) pass.color(target, gpu::LoadOp::Clear);
+    if (targets.touched) pass.depth(targets.touched, gpu::LoadOp::Clear);
     return pass;
 }
 
@@ -243,7 +252,8 @@ void Weighted::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
                          {shader::kBindingWeightedOffset, full.offset ? full.offset : full.sum},
                          {shader::kBindingWeightedLowSum, isLow() ? low.sum : full.sum},
                          {shader::kBindingWeightedLowDepth, isLow() ? low.depth : full.sum},
-                         {shader::kBindingWeightedLowFine, low.fine ? low.fine : full.sum}});
+                         {shader::kBindingWeightedLowFine, low.fine ? low.fine : full.sum}},
+                        {}, full.touched);
 }
 
 void Weighted::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -282,8 +292,8 @@ const MethodInfo& info() {
                  "Transparency, 2016",
         .exactness = Exactness::Approximate,
         .passes = "1 raster + 1 resolve",
-        .bytesPerPixel = "20; 32 with colours or diffusion; 16 more with refraction; half: 10, 16, "
-                         "8; exact: 24, 48, 16; packed: 9, 12, 2 (4 where signed bytes do not "
+        .bytesPerPixel = "22; 34 with colours or diffusion; 16 more with refraction; half: 10, 16, "
+                         "8; exact: 26, 50, 16; packed: 9, 12, 2 (4 where signed bytes do not "
                          "blend)",
         .limits = "near layers do not hide far ones of another radiance as they should; overlapping "
                   "media are not mixed",
