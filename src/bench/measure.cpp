@@ -119,22 +119,22 @@ std::vector<Contestant> makeContestants(gpu::Device& device, const render::Prepa
 
 /// A B C A B C ... with the yardstick before each round. The first warm-up counts fragments.
 /// Returns the yardstick's times.
-std::vector<double> renderRounds(std::vector<Contestant>& contestants,
+std::vector<double> renderRounds(std::vector<std::vector<Contestant>>& races,
                                  const MeasureOptions& options) {
     const int rounds = options.warmups + options.repeats;
     std::vector<double> yardstickMs;
     for (int round = 0; round < rounds; ++round) {
         const bool isWarmup = round < options.warmups;
         if (options.yardstick && !isWarmup) yardstickMs.push_back(options.yardstick->measure());
-        for (Contestant& contestant : contestants) {
-            contestant.attempt([&] {
-                contestant.renderer->countFragments(isWarmup && round == 0);
-                render::Result frame = contestant.renderer->renderFrame();
-                if (isWarmup && round == 0) contestant.samples.setFragments(frame);
-                if (!isWarmup) contestant.samples.add(std::move(frame));
-            });
-            if (options.progress) options.progress((round + 1.0) / rounds);
-        }
+        for (std::vector<Contestant>& contestants : races)
+            for (Contestant& contestant : contestants)
+                contestant.attempt([&] {
+                    contestant.renderer->countFragments(isWarmup && round == 0);
+                    render::Result frame = contestant.renderer->renderFrame();
+                    if (isWarmup && round == 0) contestant.samples.setFragments(frame);
+                    if (!isWarmup) contestant.samples.add(std::move(frame));
+                });
+        if (options.progress) options.progress((round + 1.0) / rounds);
     }
     return yardstickMs;
 }
@@ -188,6 +188,39 @@ reference::Result renderCommonReference(const render::PreparedScene& scene,
             break;
         }
     return renderReference(scene, effects, progress);
+}
+
+/// Rows of one scene, once its frames are rendered.
+void summariseRace(gpu::Device& device, const Entrant& entrant,
+                   const std::vector<Contestant>& contestants,
+                   const std::vector<double>& yardstickMs, std::vector<Measurement>& measurements) {
+    const MeasureOptions& options = entrant.options;
+    const bool anyFrame = std::any_of(contestants.begin(), contestants.end(),
+                                      [](const Contestant& c) { return !c.samples.isEmpty(); });
+    reference::Result exact;
+    if (options.withError && anyFrame)
+        exact = renderCommonReference(options.truth ? *options.truth : entrant.scene, contestants,
+                                      options.progress);
+    const auto reference = std::make_shared<const Image>(exact.image);
+    for (const Contestant& contestant : contestants) {
+        Measurement& m = measurements.emplace_back();
+        m.row = describeContestant(contestant, entrant.sceneName, entrant.scene.scene, options,
+                                   device.info());
+        if (!contestant.failure.empty()) continue;
+        contestant.samples.summariseInto(m.row);
+        if (options.yardstick) addRoofs(options.yardstick->machine(), m.row);
+        if (!yardstickMs.empty()) m.row.yardstick = summarise(yardstickMs);
+        if (options.layerCount > 0)
+            m.row.layerPixelsPerSecond =
+                1e3 * options.layerCount * m.row.width * m.row.height / m.row.time.median;
+        if (options.keepImages) m.image = contestant.samples.last().image;
+        if (!options.withError) continue;
+        Comparison comparison = compareWithReference(contestant.samples.last(), exact);
+        m.row.error = comparison.metrics;
+        if (!options.keepImages) continue;
+        m.absolute = std::move(comparison.absolute);
+        m.reference = reference;
+    }
 }
 
 }  // namespace
@@ -275,40 +308,26 @@ Comparison compareWithReference(const render::Result& frame, const reference::Re
                          findDisagreement(frame.triangles, exact.triangles));
 }
 
+std::vector<Measurement> measureScenes(gpu::Device& device, const std::deque<Entrant>& entrants,
+                                       const Log& log) {
+    std::vector<std::vector<Contestant>> races;
+    for (const Entrant& entrant : entrants) {
+        checkOptions(entrant.options);
+        races.push_back(makeContestants(device, entrant.scene, entrant.options, log));
+    }
+    const std::vector<double> yardstickMs = renderRounds(races, entrants.front().options);
+    std::vector<Measurement> measurements;
+    for (std::size_t i = 0; i < races.size(); ++i)
+        summariseRace(device, entrants[i], races[i], yardstickMs, measurements);
+    return measurements;
+}
+
 std::vector<Measurement> measureScene(gpu::Device& device, const std::string& sceneName,
                                       const render::PreparedScene& scene,
                                       const MeasureOptions& options, const Log& log) {
-    checkOptions(options);
-    std::vector<Contestant> contestants = makeContestants(device, scene, options, log);
-    const std::vector<double> yardstickMs = renderRounds(contestants, options);
-    const bool anyFrame = std::any_of(contestants.begin(), contestants.end(),
-                                      [](const Contestant& c) { return !c.samples.isEmpty(); });
-    reference::Result exact;
-    if (options.withError && anyFrame)
-        exact = renderCommonReference(options.truth ? *options.truth : scene, contestants,
-                                      options.progress);
-    const auto reference = std::make_shared<const Image>(exact.image);
-
-    std::vector<Measurement> measurements;
-    for (const Contestant& contestant : contestants) {
-        Measurement& m = measurements.emplace_back();
-        m.row = describeContestant(contestant, sceneName, scene.scene, options, device.info());
-        if (!contestant.failure.empty()) continue;
-        contestant.samples.summariseInto(m.row);
-        if (options.yardstick) addRoofs(options.yardstick->machine(), m.row);
-        if (!yardstickMs.empty()) m.row.yardstick = summarise(yardstickMs);
-        if (options.layerCount > 0)
-            m.row.layerPixelsPerSecond =
-                1e3 * options.layerCount * m.row.width * m.row.height / m.row.time.median;
-        if (options.keepImages) m.image = contestant.samples.last().image;
-        if (!options.withError) continue;
-        Comparison comparison = compareWithReference(contestant.samples.last(), exact);
-        m.row.error = comparison.metrics;
-        if (!options.keepImages) continue;
-        m.absolute = std::move(comparison.absolute);
-        m.reference = reference;
-    }
-    return measurements;
+    std::deque<Entrant> entrants;
+    entrants.push_back({sceneName, scene, options});
+    return measureScenes(device, entrants, log);
 }
 
 }  // namespace brume::bench

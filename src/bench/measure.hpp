@@ -5,7 +5,9 @@
 #include <bench/machine.hpp>
 #include <bench/row.hpp>
 #include <core/log.hpp>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <gpu/device.hpp>
 #include <reference/reference.hpp>
 #include <render/renderer.hpp>
@@ -67,7 +69,7 @@ struct MeasureOptions {
     int warmups = 1;
     bool withError = true;  ///< compare with the reference
     /// What errors are against, with its name for the rows; null: the scene itself.
-    const render::PreparedScene* truth = nullptr;
+    std::shared_ptr<const render::PreparedScene> truth;
     std::string truthName;
     bool keepImages = true;
     std::string suite;     ///< for the rows
@@ -90,6 +92,18 @@ void addRoofs(const Machine& machine, Row& row);
 
 /// Settings that a word of MeasureOptions::methods holds ("stochastic:samples=16").
 scene::Settings parseMethodSettings(const std::string& word);
+
+/// A scene with its methods, in a race with others.
+struct Entrant {
+    std::string sceneName;
+    render::PreparedScene scene;
+    MeasureOptions options;
+};
+
+/// Renders every scene with its methods, all of them in turn, frame by frame; rounds, yardstick and
+/// progress are those of the first entrant. Else as measureScene().
+std::vector<Measurement> measureScenes(gpu::Device& device, const std::deque<Entrant>& entrants,
+                                       const Log& log);
 
 /// Renders the scene with every method, taking turns frame by frame so that drift of clocks and
 /// load hits all alike. A method that fails gives a row that says why. Throws an input Error for an

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <map>
 
 namespace brume::bench {
 namespace {
@@ -55,18 +57,27 @@ class Runner {
           mLog(log),
           mResults(results) {}
 
-    void run(const Plan& plan) {
-        if (plan.kind == PlanKind::Simulation) return simulate(plan);
-        for (NamedScene& named : findScenes(plan.scene)) {
-            if (plan.size.x > 0) {
-                named.scene.image.width = plan.size.x;
-                named.scene.image.height = plan.size.y;
+    /// The plans from `first` on that are measured in turn; returns how many.
+    std::size_t run(std::span<const Plan> plans) {
+        const Plan& first = plans.front();
+        if (first.kind == PlanKind::Simulation) return simulate(first), 1;
+        if (first.kind == PlanKind::ShadowPoints) return measureStores(first), 1;
+        std::size_t count = 1;
+        while (count < plans.size() && plans[count].isRival) ++count;
+        // The scenes of a family are measured one after the other, rivals together.
+        if (count == 1) {
+            for (NamedScene& named : findScenes(first)) {
+                std::deque<Entrant> entrants;
+                enter(first, named, entrants);
+                measureFrames(entrants);
             }
-            if (plan.kind == PlanKind::ShadowPoints)
-                measureStores(plan, named);
-            else
-                measureFrames(plan, named);
+            return count;
         }
+        std::deque<Entrant> entrants;
+        for (const Plan& plan : plans.first(count))
+            for (NamedScene& named : findScenes(plan)) enter(plan, named, entrants);
+        measureFrames(entrants);
+        return count;
     }
 
   private:
@@ -80,26 +91,41 @@ class Runner {
         return scenes;
     }
 
+    std::vector<NamedScene> findScenes(const Plan& plan) const {
+        std::vector<NamedScene> scenes = findScenes(plan.scene);
+        if (plan.size.x > 0)
+            for (NamedScene& named : scenes) {
+                named.scene.image.width = plan.size.x;
+                named.scene.image.height = plan.size.y;
+            }
+        return scenes;
+    }
+
     void simulate(const Plan& plan) {
         const auto costs =
             measureSimulation(mDevice, plan.count > 0 ? plan.count : 1'000'000, repeats(plan));
         mResults.simulation.insert(mResults.simulation.end(), costs.begin(), costs.end());
     }
 
-    void measureStores(const Plan& plan, const NamedScene& named) {
+    void measureStores(const Plan& plan) {
         ShadowMeasureOptions options;
         options.stores = plan.methods;
         options.settings = plan.settings;
         options.repeats = std::min(repeats(plan), kMostShadowRepeats);
         if (plan.count > 0) options.points = static_cast<int>(plan.count);
-        const auto rows =
-            measureShadows(mDevice, named.name, prepareNamed(named, mLog), options, mLog);
-        mResults.shadows.insert(mResults.shadows.end(), rows.begin(), rows.end());
+        for (const NamedScene& named : findScenes(plan)) {
+            const auto rows =
+                measureShadows(mDevice, named.name, prepareNamed(named, mLog), options, mLog);
+            mResults.shadows.insert(mResults.shadows.end(), rows.begin(), rows.end());
+        }
     }
 
-    void measureFrames(const Plan& plan, NamedScene& named) {
+    void enter(const Plan& plan, NamedScene& named, std::deque<Entrant>& entrants) {
         if (!plan.shadow.empty()) overrideShadows(named.scene, plan.shadow);
-        MeasureOptions options;
+        Entrant& entrant = entrants.emplace_back();
+        entrant.sceneName = named.name;
+        entrant.scene = prepareNamed(named, mLog);
+        MeasureOptions& options = entrant.options;
         options.methods = plan.methods;
         options.settings = plan.settings;
         options.repeats = repeats(plan);
@@ -109,21 +135,22 @@ class Runner {
         options.shadow = plan.shadow;
         options.layerCount = named.layerCount;
         options.yardstick = &mYardstick;
-        render::PreparedScene truth;
-        if (!plan.truth.empty()) {
-            NamedScene other = findScenes(plan.truth).front();
-            other.scene.image = named.scene.image;
-            truth = prepareNamed(other, mLog);
-            options.truth = &truth;
-            options.truthName = plan.truth;
-        }
-        std::vector<Measurement> measured = measureScene(mDevice, named.name,
-                                                         prepareNamed(named, mLog), options, mLog);
-        const auto reference =
-            shrinkReference(measured.empty() ? nullptr : measured.front().reference);
-        for (Measurement& m : measured) {
+        if (plan.truth.empty()) return;
+        NamedScene truth = findScenes(plan.truth).front();
+        truth.scene.image = named.scene.image;
+        options.truth = std::make_shared<const render::PreparedScene>(prepareNamed(truth, mLog));
+        options.truthName = plan.truth;
+    }
+
+    void measureFrames(const std::deque<Entrant>& entrants) {
+        std::map<const Image*, std::shared_ptr<const Image>> references;  // small ones
+        for (Measurement& m : measureScenes(mDevice, entrants, mLog)) {
             shrink(m);
-            if (m.reference) m.reference = reference;
+            if (m.reference) {
+                auto& small = references[m.reference.get()];
+                if (!small) small = shrinkReference(m.reference);
+                m.reference = small;
+            }
             mResults.frames.push_back(std::move(m));
         }
     }
@@ -142,11 +169,11 @@ void runPlans(gpu::Device& device, Yardstick& yardstick, const std::vector<Plan>
               const std::string& suite, const RunOptions& options, const Log& log,
               Results& results) {
     Runner runner(device, yardstick, suite, options, log, results);
-    for (std::size_t i = 0; i < plans.size(); ++i) {
+    for (std::size_t i = 0; i < plans.size();) {
         if (options.progress)
             options.progress(suite + " " + plans[i].scene,
                              static_cast<double>(i) / static_cast<double>(plans.size()));
-        runner.run(plans[i]);
+        i += runner.run(std::span(plans).subspan(i));
     }
     results.machine = yardstick.machine();
 }

@@ -119,7 +119,10 @@ std::vector<Plan> plan(Scale scale) {
     for (const Need& need : listNeeds()) {
         const std::string name = "need_" + need.name;
         plans.push_back({.scene = name, .methods = {need.method}, .size = size});
-        plans.push_back({.scene = name + "_without", .methods = {need.without}, .size = size});
+        plans.push_back({.scene = name + "_without",
+                         .methods = {need.without},
+                         .size = size,
+                         .isRival = true});
     }
     for (const char* name : {"need_unused", "need_unused_without"})
         plans.push_back({.scene = name, .methods = listAllMethods(), .size = size});
@@ -133,8 +136,8 @@ std::uint64_t totalBytes(const Row& row) {
 
 Table readCosts(std::span<const Measurement> rows) {
     Table table{.title = "What a need adds",
-                .notes = {"To a scene of smoke, two panes and a sun; times over the yardstick of the same "
-                          "rounds, so that they compare between rounds."},
+                .notes = {"To a scene of smoke, two panes and a sun; both scenes of a row in turn, frame by "
+                          "frame."},
                 .header = {"need", "method", "ms without", "ms with", "adds ms", "adds passes",
                            "adds KiB"},
                 .textColumns = 2};
@@ -142,15 +145,12 @@ Table readCosts(std::span<const Measurement> rows) {
         const Row* with = findRow(rows, "need_" + need.name, need.method);
         const Row* without = findRow(rows, "need_" + need.name + "_without", need.without);
         if (!with || !without) continue;
-        double scaled = with->time.median;
-        if (with->yardstick.median > 0)
-            scaled *= without->yardstick.median / with->yardstick.median;
         const auto difference = [](auto a, auto b) {
             return static_cast<long long>(a) - static_cast<long long>(b);
         };
         table.rows.push_back(
-            {need.what, need.method, formatMs(without->time.median), formatMs(scaled),
-             fmt::format("{:+.2f}", scaled - without->time.median),
+            {need.what, need.method, formatMs(without->time.median), formatMs(with->time.median),
+             fmt::format("{:+.2f}", with->time.median - without->time.median),
              fmt::format("{:+}", difference(with->passes.size(), without->passes.size())),
              fmt::format("{:+}", difference(totalBytes(*with), totalBytes(*without)) / 1024)});
     }

@@ -51,14 +51,17 @@ std::vector<Plan> plan(Scale scale) {
         Plan plan{.scene = scene.scene, .methods = {scene.method}, .size = size};
         // Lamps on all sides would need six maps each, which the paper's spotlights do not.
         plan.shadow = scene.scene == "foggy_street" ? "none" : "stochastic_vsm";
-        plan.settings = {{"shadow.resolution", isFull ? "1024" : "128"}};
+        plan.settings = {{"shadow.resolution", isFull ? "1024" : "64"}};
         plans.push_back(plan);
     }
     return plans;
 }
 
-Findings read(std::span<const Measurement> rows, Scale) {
-    return {.tables = {makePaperTable(makeTable(), rows)}};
+Findings read(std::span<const Measurement> rows, Scale scale) {
+    PaperTable table = makeTable();
+    if (scale == Scale::Quick)
+        table.notes.push_back("Ours at 240x135, shadow maps of 64 texels.");
+    return {.tables = {makePaperTable(table, rows)}};
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Plan {
     int repeats = 0;                   ///< 0: the run's
     bool withError = true;
     std::string truth = {};    ///< scene that errors are against; empty: the same
+    bool isRival = false;     ///< Frames: measured in turn with the plan before it, round by round
     std::uint32_t count = 0;  ///< points of ShadowPoints, particles of Simulation; 0: the default
 };
 
