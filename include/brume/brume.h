@@ -349,7 +349,15 @@ BRUME_API BrumeResult brumeAddVolume(BrumeScene scene, const BrumeVolume* volume
 BRUME_API BrumeResult brumeAddEffect(BrumeScene scene, const BrumeEffect* effect, BrumeId* id);
 BRUME_API BrumeResult brumeSetEffectTransform(BrumeScene scene, BrumeId id,
                                               const double worldFromEffect[16]);
-/** Lights, groups of spheres, volumes and effects; media stay. */
+/** The world box that an effect's particles are taken to stay in (boundsRadius, or an estimate from
+ *  speeds and lifetimes), where it stands now; for culling. */
+BRUME_API BrumeResult brumeGetEffectBounds(BrumeScene scene, BrumeId id, double lo[3], double hi[3]);
+/** The world counts from `newOrigin` (m, in the old coordinates) from now on: all that the scene holds
+ *  moves by its negative, and nothing is seen to move, given that the next view and the next
+ *  transforms are in the new coordinates. Of files read later too. */
+BRUME_API BrumeResult brumeRebaseScene(BrumeScene scene, const double newOrigin[3]);
+/** Lights, groups of spheres, volumes and effects; media stay. What an effect had of a particle budget
+ *  goes to those that were cut; they begin anew and catch up. */
 BRUME_API BrumeResult brumeRemove(BrumeScene scene, BrumeId id);
 
 /** Makes all pipelines and memory for views of this size and these formats (`view`: images' formats

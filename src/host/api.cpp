@@ -184,6 +184,20 @@ BRUME_API BrumeResult brumeSetEffectTransform(BrumeScene scene, BrumeId id,
     });
 }
 
+BRUME_API BrumeResult brumeGetEffectBounds(BrumeScene scene, BrumeId id, double lo[3],
+                                           double hi[3]) {
+    return guard([&] {
+        constexpr const char* kCall = "brumeGetEffectBounds";
+        if (!lo || !hi) throw refuse(kCall, "lo", "it or 'hi' is null");
+        const brume::Box3 box = toScene(kCall, scene).model().boundsOf(id);
+        for (int i = 0; i < 3; ++i) lo[i] = box.lo[i], hi[i] = box.hi[i];
+    });
+}
+
+BRUME_API BrumeResult brumeRebaseScene(BrumeScene scene, const double newOrigin[3]) {
+    return guard([&] { toScene("brumeRebaseScene", scene).rebase(newOrigin); });
+}
+
 BRUME_API BrumeResult brumeRemove(BrumeScene scene, BrumeId id) {
     return guard([&] { toScene("brumeRemove", scene).model().remove(id); });
 }

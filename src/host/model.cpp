@@ -76,8 +76,9 @@ void Model::adoptScene(scene::Scene scene) {
     for (const scene::Volume& volume : mPrepared.scene.volumes) addVolumeOf(volume);
     if (!mPrepared.spheres.empty()) mSpheres.push_back({nextId(), 0, mPrepared.spheres.size()});
     BrumeId id = 0;
-    particles::warnOfCut(particles::applyBudgets(mPrepared.scene), mPrepared.scene,
-                         mContext->log());
+    for (const scene::EffectInstance& effect : mPrepared.scene.effects)
+        if (!effect.isSubEmitter) checkEffect(effect.effect, kCreate);
+    applyBudgets();
     for (scene::EffectInstance& effect : mPrepared.scene.effects) {
         if (!effect.isSubEmitter) id = nextId(), ++mRevision;
         effect.key = mRevision;
@@ -86,6 +87,7 @@ void Model::adoptScene(scene::Scene scene) {
         if (!effect.file.empty()) watch(effect.file);
     }
     if (!mPrepared.scene.file.empty()) watch(mPrepared.scene.file);
+    moveAll(-mOrigin);
     ++mStructure;
 }
 
@@ -192,7 +194,7 @@ std::uint32_t Model::reloadEffects() {
         if (!effect.isSubEmitter && !effect.file.empty() && !fresh.contains(effect.file) &&
             hasChanged(effect.file)) {
             scene::Effect read = scene::loadEffect(effect.file, mContext->log());
-            particles::compileEffect(read);
+            checkEffect(read, "brumeReloadScene");
             fresh.emplace(effect.file, std::move(read));
         }
     for (const auto& [file, effect] : fresh) {
@@ -226,14 +228,17 @@ Box3 Model::stillBounds() const { return render::findTranslucentBounds(mPrepared
 Box3 Model::effectBounds() const {
     Box3 bounds;
     for (std::size_t i = 0; i < mPrepared.scene.effects.size(); ++i) {
-        const scene::EffectInstance& effect = mPrepared.scene.effects[i];
-        if (effect.isSubEmitter) continue;
-        const dvec3 origin(effect.worldFromEffect[3]);
-        const double reach = mEffectRadii[i] * particles::lengthScale(effect.worldFromEffect);
-        bounds.extend(origin - dvec3(reach));
-        bounds.extend(origin + dvec3(reach));
+        if (!mPrepared.scene.effects[i].isSubEmitter) extendByEffect(bounds, i);
     }
     return bounds;
+}
+
+void Model::extendByEffect(Box3& bounds, std::size_t entry) const {
+    const dmat4& worldFromEffect = mPrepared.scene.effects[entry].worldFromEffect;
+    const dvec3 origin(worldFromEffect[3]);
+    const double reach = mEffectRadii[entry] * particles::lengthScale(worldFromEffect);
+    bounds.extend(origin - dvec3(reach));
+    bounds.extend(origin + dvec3(reach));
 }
 
 }  // namespace brume::host

@@ -45,6 +45,10 @@ class Model {
     BrumeId addEffect(const BrumeEffect& effect);
     void setEffectTransform(BrumeId id, const double* worldFromEffect);
     void remove(BrumeId id);
+    /// The world counts from another point now.
+    void rebase(const double* newOrigin);
+    /// World box that an effect's particles are taken to stay in.
+    Box3 boundsOf(BrumeId id) const;
 
     /// Moves the clocks of all effects on.
     void step(double seconds);
@@ -69,6 +73,11 @@ class Model {
     void adoptScene(scene::Scene scene);
     void chooseMethod(const BrumeSceneCreateInfo& info);
     void addVolumeOf(const scene::Volume& volume);
+    /// Throws an input Error for effects that hosts cannot have.
+    void checkEffect(const scene::Effect& effect, const char* call) const;
+    void applyBudgets();
+    void moveAll(const dvec3& offset);
+    void extendByEffect(Box3& bounds, std::size_t entry) const;
     void addEntries(const scene::EffectInstance& root, std::size_t at);
     void watch(const std::filesystem::path& file);
     bool hasChanged(const std::filesystem::path& file) const;
@@ -81,6 +90,7 @@ class Model {
     render::PreparedScene mPrepared;
     render::Options mOptions;
     BrumeInside mInside = BRUME_INSIDE_NOTHING;
+    dvec3 mOrigin{0};  // of the world, from that of the files
     BrumeId mLastId = 0;
     std::uint64_t mRevision = 0;  // of effects
     std::uint64_t mStructure = 1, mValues = 1;

@@ -235,7 +235,7 @@ BrumeId Model::addEffect(const BrumeEffect& given) {
     } else {
         root.effect = scene::parseEffect(given.text, "effect.json", mContext->log());
     }
-    particles::compileEffect(root.effect);
+    checkEffect(root.effect, kCall);
     root.worldFromEffect = toTransform(kCall, given.worldFromEffect);
     root.seed = given.seed;
     root.time = toNumber(kCall, "time", given.time, 0, 1e9);
@@ -249,8 +249,7 @@ BrumeId Model::addEffect(const BrumeEffect& given) {
     root.key = ++mRevision;
     const std::size_t at = mPrepared.scene.effects.size();
     addEntries(root, at);
-    particles::warnOfCut(particles::applyBudgets(mPrepared.scene), mPrepared.scene,
-                         mContext->log());
+    applyBudgets();
     const BrumeId id = nextId();
     for (std::size_t i = at; i < mEffectIds.size(); ++i) mEffectIds[i] = id;
     if (radius > 0) mEffectRadii[at] = radius;
@@ -324,8 +323,60 @@ void Model::remove(BrumeId id) {
         throw refuse(
             "brumeRemove", "id",
             fmt::format("the scene has no light, spheres, volume or effect with id {}", id));
+    applyBudgets();
     mIsFromFileOnly = false;
     ++mStructure;
+}
+
+void Model::checkEffect(const scene::Effect& effect, const char* call) const {
+    particles::requireReplayable(particles::compileEffect(effect), call);
+    for (const scene::Effect* one : particles::listPopulations(effect))
+        if (one->surface)
+            mContext->log().warning(
+                fmt::format("{}: ribbons and billboards are not shown in a host's frame, particles "
+                            "with a medium are",
+                            call));
+}
+
+void Model::applyBudgets() {
+    const particles::BudgetCut cut = particles::applyBudgets(mPrepared.scene);
+    particles::warnOfCut(cut, mPrepared.scene, mContext->log());
+    // Simulations of another capacity begin anew and catch up.
+    for (const std::size_t root : cut.changed) {
+        ++mRevision;
+        for (std::size_t i = root; i < mPrepared.scene.effects.size(); ++i) {
+            if (i > root && !mPrepared.scene.effects[i].isSubEmitter) break;
+            mPrepared.scene.effects[i].key = mRevision;
+        }
+    }
+}
+
+void Model::rebase(const double* newOrigin) {
+    constexpr const char* kCall = "brumeRebaseScene";
+    if (!newOrigin) throw refuse(kCall, "newOrigin", "it is null");
+    const dvec3 origin(toNumber(kCall, "newOrigin", newOrigin[0], -1e12, 1e12),
+                       toNumber(kCall, "newOrigin", newOrigin[1], -1e12, 1e12),
+                       toNumber(kCall, "newOrigin", newOrigin[2], -1e12, 1e12));
+    mOrigin += origin;
+    moveAll(-origin);
+    ++mValues;
+}
+
+void Model::moveAll(const dvec3& offset) {
+    scene::Scene& scene = mPrepared.scene;
+    const auto move = [&](dmat4& transform) { transform[3] += dvec4(offset, 0); };
+    for (scene::Light& light : scene.lights) light.position += offset;
+    for (scene::Mesh& mesh : scene.meshes) move(mesh.worldFromObject);
+    for (scene::EffectInstance& effect : scene.effects) move(effect.worldFromEffect);
+    for (volumes::VolumeGrid& grid : mPrepared.volumes) move(grid.worldFromIndex);
+    for (scene::MediumSphere& sphere : mPrepared.spheres) sphere.center += offset;
+}
+
+Box3 Model::boundsOf(BrumeId id) const {
+    Box3 bounds;
+    const std::size_t i = placeOf(mEffectIds, id, "brumeGetEffectBounds", "effect");
+    extendByEffect(bounds, i);
+    return bounds;
 }
 
 void Model::step(double seconds) {

@@ -324,6 +324,15 @@ void Scene::finishRender(gpu::Commands& commands) {
     ++mFrames;
 }
 
+void Scene::rebase(const double* newOrigin) {
+    mModel.rebase(newOrigin);
+    if (!mComposer) return;
+    const dvec3 origin(newOrigin[0], newOrigin[1], newOrigin[2]);
+    mComposer->effects.rebase(origin);
+    mComposer->scene.rebase(origin);
+    if (mComposer->casters) mComposer->casters->rebase(origin);
+}
+
 VkDeviceAddress Scene::shadowOf(BrumeId light) const {
     const std::optional<std::size_t> index = mModel.shaderLight(light);
     if (!isMade())

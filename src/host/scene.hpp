@@ -30,6 +30,9 @@ class Scene {
     VkDeviceAddress shadowOf(BrumeId light) const;
     BrumeCounters counters() const;
 
+    /// The world counts from another point now; nothing moves.
+    void rebase(const double* newOrigin);
+
     /// What was recorded in this frame will not be submitted: all memory is made anew and effects
     /// catch up.
     void forgetFrame();

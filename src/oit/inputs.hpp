@@ -34,6 +34,8 @@ struct Needs {
     std::uint32_t lights = 0;         ///< without ambient ones
     std::uint32_t shadowStores = 0;   ///< bits of shaders/shadows/common/maps.h
     std::uint32_t shadowing = 0;      ///< likewise; 0 where there are no stores
+
+    bool operator==(const Needs&) const = default;
 };
 
 /// One mesh of thin or solid triangles.

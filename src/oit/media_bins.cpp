@@ -13,6 +13,7 @@
 #include <spv/oit/media_bins/gather.comp.hpp>
 #include <spv/oit/media_bins/keys.comp.hpp>
 #include <spv/oit/media_bins/sort.comp.hpp>
+#include <spv/oit/media_bins/tile_limits.comp.hpp>
 
 #include <algorithm>
 
@@ -66,9 +67,9 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
           device, name + ".box_rects", spv::oit_media_bins_box_rects_comp,
           join(kBoxBindings, {{shader::kBindingSortedBoxes, gpu::BindingType::StorageBuffer}}),
           {areListsSorted && inputs.boxCount > 0})),
-      mBinCount(makePipeline(device, name + ".bin_count", spv::oit_media_bins_bin_comp, {}, {0})),
-      mBinScatter(
-          makePipeline(device, name + ".bin_scatter", spv::oit_media_bins_bin_comp, {}, {1})),
+      mTileLimits(makePipeline(
+          device, name + ".tile_limits", spv::oit_media_bins_tile_limits_comp,
+          {{shader::kBindingOpaqueT, gpu::BindingType::SampledImage}})),
       mPrefixSum(device) {
     const std::uint64_t sphereBytes = std::max(inputs.sphereCount, 1u) * sizeof(shader::SphereData);
     if (areListsSorted)
@@ -87,14 +88,24 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
     mKeys = makeUints(device, name + ".keys", inputs.sphereCount);
     mValues = makeUints(device, name + ".values", inputs.sphereCount);
     mSortedSpheres = {device, {.name = name + ".sorted_spheres", .bytes = sphereBytes}};
-    mSpheres = makeSet(device, name + ".sphere_bins", inputs.sphereCount);
-    mBoxes = makeSet(device, name + ".box_bins", inputs.boxCount);
+    mLimits = makeUints(device, name + ".limits", mTileCount);
+    mSpheres = makeSet(device, name + ".sphere_bins", inputs.sphereCount, shader::kKeysOfSpheres);
+    mSpheres.keys = mKeys.deviceAddress();
+    // Of parallel rays, boxes are sorted by their middles.
+    const bool areBoxesByDistance = mBoxSort && !inputs.needs.orthographic;
+    mBoxes = makeSet(device, name + ".box_bins", inputs.boxCount,
+                     areBoxesByDistance ? shader::kKeysOfBoxes : shader::kKeysNothing);
+    if (areBoxesByDistance) mBoxes.keys = mBoxKeyValues.deviceAddress();
 }
 
 MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
-                                  std::uint32_t count) const {
+                                  std::uint32_t count, std::uint32_t keyKind) const {
     Set set;
     set.count = count;
+    set.binCount = makePipeline(device, name + ".count", spv::oit_media_bins_bin_comp, {},
+                                {false, keyKind});
+    set.binScatter = makePipeline(device, name + ".scatter", spv::oit_media_bins_bin_comp, {},
+                                  {true, keyKind});
     set.rects = makeUints(device, name + ".rects", 2ull * count);
     set.offsets = makeUints(device, name + ".offsets", mTileCount + 1);
     set.cursors = makeUints(device, name + ".cursors", mTileCount);
@@ -105,6 +116,15 @@ MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
                         .bytes = 4ull * (mTileCount + 1),
                         .memory = gpu::MemoryKind::Readback}};
     return set;
+}
+
+void MediaBins::recordLimits(gpu::Commands& commands, const Inputs& inputs,
+                             const gpu::Image& opaqueT) const {
+    commands.bindCompute(mTileLimits);
+    bindFrame(commands, inputs);
+    commands.bind(shader::kBindingOpaqueT, opaqueT, *inputs.texelSampler);
+    commands.pushConstants(shader::BinPush{.limits = mLimits.deviceAddress()});
+    commands.dispatch((mTileCount + 63) / 64);
 }
 
 void MediaBins::recordSort(gpu::Commands& commands, const Inputs& inputs,
@@ -172,16 +192,18 @@ void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const S
                           const gpu::ComputePipeline& pipeline) const {
     commands.bindCompute(pipeline);
     bindFrame(commands, inputs);
-    commands.pushConstants(shader::BinPush{.rects = set.rects.deviceAddress(),
+    commands.pushConstants(shader::BinPush{.keys = set.keys,
+                                           .rects = set.rects.deviceAddress(),
                                            .counts = set.offsets.deviceAddress(),
                                            .cursors = set.cursors.deviceAddress(),
                                            .pairs = set.pairs.deviceAddress(),
+                                           .limits = mLimits.deviceAddress(),
                                            .count = set.count});
     commands.dispatch((set.count + 63) / 64, shader::kBinRowSlices);
 }
 
 void MediaBins::recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const {
-    if (set.count > 0) recordBin(commands, inputs, set, mBinCount);
+    if (set.count > 0) recordBin(commands, inputs, set, set.binCount);
     commands.computeBarrier();
     mPrefixSum.record(commands, set.offsets.deviceAddress(), mTileCount + 1,
                       set.sums.deviceAddress());
@@ -192,12 +214,12 @@ void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
     for (const Set* set : {&mSpheres, &mBoxes})
         for (const gpu::Buffer* buffer : {&set->offsets, &set->cursors})
             pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
-    pass.reads(inputs.spheres, Access::ComputeRead);
+    pass.reads(inputs.spheres, Access::ComputeRead).reads(inputs.opaqueT, Access::ComputeSample);
     if (mBoxSort)
         for (const gpu::Buffer* buffer : {&mBoxKeyValues, &mBoxValues, &mSortedBoxes})
             pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
     for (const gpu::Buffer* buffer :
-         {&mKeys, &mValues, &mSortedSpheres, &mSpheres.rects, &mSpheres.sums, &mSpheres.offsets,
+         {&mLimits, &mKeys, &mValues, &mSortedSpheres, &mSpheres.rects, &mSpheres.sums, &mSpheres.offsets,
           &mBoxes.rects, &mBoxes.sums, &mBoxes.offsets})
         pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
@@ -206,6 +228,7 @@ void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
             commands.fillBuffer(set->cursors, 0);
         }
         commands.computeTransferBarrier();
+        recordLimits(commands, inputs, resources.image(inputs.opaqueT));
         if (mSpheres.count > 0) recordSort(commands, inputs, resources.buffer(inputs.spheres));
         if (mBoxes.count > 0) recordBoxes(commands, inputs);
         recordCount(commands, inputs, mSpheres);
@@ -239,15 +262,18 @@ void MediaBins::allocate() {
 
 void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs) {
     frame::PassBuilder& pass = frame.addPass(mName + ".scatter");
+    for (const gpu::Buffer* buffer : {&mLimits, &mKeys})
+        pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
+    if (mBoxSort) pass.reads(frame.importBuffer(mBoxKeyValues), Access::ComputeRead);
     for (const Set* set : {&mSpheres, &mBoxes}) {
-        pass.reads(frame.importBuffer(set->rects), Access::ComputeRead);
-        pass.reads(frame.importBuffer(set->offsets), Access::ComputeRead);
+        for (const gpu::Buffer* buffer : {&set->rects, &set->offsets})
+            pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
         pass.readsWrites(frame.importBuffer(set->cursors), Access::ComputeWrite);
         pass.writes(frame.importBuffer(set->pairs), Access::ComputeWrite);
     }
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources&) {
         for (const Set* set : {&mSpheres, &mBoxes})
-            if (set->count > 0) recordBin(commands, inputs, *set, mBinScatter);
+            if (set->count > 0) recordBin(commands, inputs, *set, set->binScatter);
         for (const Set* set : {&mSpheres, &mBoxes})
             if (mSortLists && set->count > 0) recordSortLists(commands, inputs, *set);
     });
@@ -261,7 +287,8 @@ void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pas
 }
 
 std::uint64_t MediaBins::bytes() const {
-    std::uint64_t sum = mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes();
+    std::uint64_t sum =
+        mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes() + mLimits.bytes();
     if (mSort) sum += mSort->bytes();
     if (mBoxSort)
         sum +=

@@ -16,7 +16,8 @@ std::uint32_t countTiles(VkExtent2D extent);
 
 /// Count, scan, scatter: the memory for the tiles' lists is known before any of it is written.
 /// If the lists are sorted, media stand in the order of their smallest possible distances; else
-/// spheres nearly so, and boxes in any order.
+/// spheres nearly so, and boxes in any order. What something opaque hides from all of a tile is not
+/// in its list.
 class MediaBins {
   public:
     /// `name` of the passes' prefix, e.g. "oit.linked_list".
@@ -53,6 +54,8 @@ class MediaBins {
   private:
     struct Set {
         std::uint32_t count = 0;
+        gpu::ComputePipeline binCount, binScatter;
+        VkDeviceAddress keys = 0;  ///< sorted, where they tell distances
         gpu::Buffer rects, offsets, cursors, sums, pairs, offsetsRead;
         std::uint64_t pairCount = 0;
         std::uint32_t longest = 0;
@@ -60,7 +63,10 @@ class MediaBins {
     static List listOf(const Set& set) {
         return {set.offsets.deviceAddress(), set.pairs.deviceAddress()};
     }
-    Set makeSet(gpu::Device& device, const std::string& name, std::uint32_t count) const;
+    Set makeSet(gpu::Device& device, const std::string& name, std::uint32_t count,
+                std::uint32_t keyKind) const;
+    void recordLimits(gpu::Commands& commands, const Inputs& inputs,
+                      const gpu::Image& opaqueT) const;
     void recordSort(gpu::Commands& commands, const Inputs& inputs,
                     const gpu::Buffer& spheres) const;
     void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
@@ -72,11 +78,12 @@ class MediaBins {
     gpu::Device* mDevice;
     std::string mName;
     std::uint32_t mTileCount;
-    gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mBinCount, mBinScatter;
+    gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mTileLimits;
     gpu::ComputePipeline mBoxKeys, mSortLists;
     gpu::PrefixSum mPrefixSum;
     std::optional<gpu::RadixSort> mSort, mBoxSort;
     gpu::Buffer mKeys, mValues, mSortedSpheres, mBoxKeyValues, mBoxValues, mSortedBoxes;
+    gpu::Buffer mLimits;
     Set mSpheres, mBoxes;
 };
 

@@ -100,4 +100,16 @@ shader::AppearanceParameters appearanceParameters(const scene::Effect& effect) {
     return p;
 }
 
+float largestTint(const scene::Effect& effect) {
+    const shader::AppearanceParameters p = appearanceParameters(effect);
+    // Linear between the ends of the segments.
+    vec3 tint = p.tint;
+    float largest = std::max({tint.x, tint.y, tint.z});
+    for (std::uint32_t i = 0; i < p.segmentCount; ++i) {
+        tint += p.segments[i].tintSlope * p.segments[i].width;
+        largest = std::max({largest, tint.x, tint.y, tint.z});
+    }
+    return largest;
+}
+
 }  // namespace brume::particles

@@ -10,6 +10,9 @@ namespace brume::particles {
 /// Throws an input Error if the curves have too many keys.
 shader::AppearanceParameters appearanceParameters(const scene::Effect& effect);
 
+/// The largest component that the tint ever has, that of the temperature included.
+float largestTint(const scene::Effect& effect);
+
 /// The value of a curve with at least one key.
 template <typename T>
 T curveAt(const scene::Curve<T>& curve, double x) {

@@ -11,11 +11,19 @@
 namespace brume::particles {
 namespace {
 
+std::uint32_t wantedBy(const scene::Effect& effect) {
+    return effect.uncutCapacity > 0 ? effect.uncutCapacity : effect.capacity;
+}
+
+void setCapacity(scene::Effect& effect, std::uint32_t capacity) {
+    const std::uint32_t wanted = wantedBy(effect);
+    effect.uncutCapacity = capacity < wanted ? wanted : 0;
+    effect.capacity = capacity;
+}
+
 /// The effect with the capacities of its populations, in their order.
 scene::Effect withCapacities(scene::Effect effect, const std::uint32_t*& next) {
-    const std::uint32_t capacity = *next++;
-    effect.isCut = effect.isCut || capacity < effect.capacity;
-    effect.capacity = capacity;
+    setCapacity(effect, *next++);
     for (scene::SubEmitter& sub : effect.subEmitters)
         sub.effect =
             std::make_shared<const scene::Effect>(withCapacities(*sub.effect, next));
@@ -42,7 +50,7 @@ BudgetCut applyBudgets(scene::Scene& scene) {
     std::map<std::pair<std::filesystem::path, std::size_t>, Purse> purses;  // by file, population
     for (std::size_t root = 0, end = 0; root < scene.effects.size(); root = end) {
         std::vector<std::uint32_t> capacities;
-        const std::size_t cutBefore = cut.entries;
+        bool isNew = false;
         for (end = root; end == root || (end < scene.effects.size() &&
                                          scene.effects[end].isSubEmitter);
              ++end) {
@@ -51,27 +59,27 @@ BudgetCut applyBudgets(scene::Scene& scene) {
             const std::pair key(entry.file, entry.file.empty() ? end : end - root);
             Purse& own = purses.try_emplace(key, entry.effect.budget).first->second;
             const auto granted = static_cast<std::uint32_t>(
-                std::min<std::uint64_t>({entry.effect.capacity, own.left(), all.left()}));
+                std::min<std::uint64_t>({wantedBy(entry.effect), own.left(), all.left()}));
             own.take(granted);
             all.take(granted);
-            cut.wanted += entry.effect.capacity;
+            cut.wanted += wantedBy(entry.effect);
             cut.granted += granted;
-            if (granted < entry.effect.capacity && cut.entries++ == 0) cut.first = end;
+            if (granted < wantedBy(entry.effect) && cut.entries++ == 0) cut.first = end;
+            isNew |= granted != entry.effect.capacity;
             capacities.push_back(granted);
         }
-        if (cut.entries == cutBefore) continue;
+        if (!isNew) continue;
+        cut.changed.push_back(root);
         const std::uint32_t* next = capacities.data();
         scene.effects[root].effect = withCapacities(scene.effects[root].effect, next);
-        for (std::size_t i = root + 1; i < end; ++i) {
-            scene.effects[i].effect.isCut |= capacities[i - root] < scene.effects[i].effect.capacity;
-            scene.effects[i].effect.capacity = capacities[i - root];
-        }
+        for (std::size_t i = root + 1; i < end; ++i)
+            setCapacity(scene.effects[i].effect, capacities[i - root]);
     }
     return cut;
 }
 
 void warnOfCut(const BudgetCut& cut, const scene::Scene& scene, const Log& log) {
-    if (cut.entries == 0) return;
+    if (cut.entries == 0 || cut.changed.empty()) return;
     const scene::EffectInstance& first = scene.effects[cut.first];
     log.warning(fmt::format(
         "setting up effects: the budget leaves room for {} of {} particles; {} of {} effects are cut, "

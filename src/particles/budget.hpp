@@ -13,14 +13,15 @@ struct BudgetCut {
     std::size_t first = 0;      ///< the first of them, index into the scene's effects
     std::uint64_t wanted = 0;   ///< particles, of the whole scene
     std::uint64_t granted = 0;
+    std::vector<std::size_t> changed;  ///< roots whose entries have other capacities than before
 };
 
 /// Lowers the capacities of the scene's effects until neither the scene's budget nor that of any
 /// effect is exceeded: the first in order keep theirs, the others get what is left, or 0. Doing it
-/// again changes nothing.
+/// again changes nothing; once effects are gone, it gives their share back to those that were cut.
 BudgetCut applyBudgets(scene::Scene& scene);
 
-/// One line if something was cut.
+/// One line if something was cut and that is new.
 void warnOfCut(const BudgetCut& cut, const scene::Scene& scene, const Log& log);
 
 }  // namespace brume::particles

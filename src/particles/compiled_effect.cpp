@@ -215,6 +215,8 @@ CompiledEffect compileOne(const scene::Effect& effect, bool isChild) {
     sums.effect = &effect;
     sums.fields = &packer;
     addModules(effect.modules, sums);
+    compiled.depthCollider = sums.depthCollider;
+    compiled.depthColliderWhere = sums.depthColliderWhere;
     p.step = stepParameters(sums, effect.tickRate);
     p.isWorld = effect.isWorldSpace;
     p.appearance = appearanceParameters(effect);
@@ -274,6 +276,14 @@ std::vector<CompiledEffect> compileEffect(const scene::Effect& effect) {
     std::vector<CompiledEffect> all;
     addPopulations(effect, CompiledEffect::kNone, 0, all);
     return all;
+}
+
+void requireReplayable(std::span<const CompiledEffect> populations, const char* doing) {
+    for (const CompiledEffect& population : populations)
+        if (population.depthCollider)
+            throw inputError(doing, population.depthColliderWhere,
+                             "module 'collide_depth' is not replayable, it needs the picture of a "
+                             "device: allowed in 'render' and 'view' with a method of the GPU");
 }
 
 std::vector<const scene::Effect*> listPopulations(const scene::Effect& effect) {

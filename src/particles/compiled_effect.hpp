@@ -4,6 +4,7 @@
 #pragma once
 
 #include <shaders/particles/effect.h>
+#include <shaders/particles/modules/collide_depth.h>
 #include <particles/instance_space.hpp>
 #include <particles/spawn_schedule.hpp>
 #include <scene/effect.hpp>
@@ -34,6 +35,8 @@ struct CompiledEffect {
     std::vector<shader::EmitterParameters> emitters;
     std::vector<shader::EmitterTriangle> triangles;
     std::vector<float> fieldValues;  ///< of all its grids, see shader::FieldGrid
+    std::optional<shader::DepthCollider> depthCollider;  ///< not replayable
+    std::string depthColliderWhere;                      ///< in the effect's file
     bool hasStrands = false;         ///< each particle's strand is kept, for ribbons
     std::vector<NoiseDrift> noiseDrifts;
     SpawnSchedule schedule;
@@ -52,6 +55,10 @@ struct CompiledEffect {
 /// The populations of an effect: itself, then those of its sub-emitters, each before its own.
 /// Throws an input Error for modules and values that cannot be simulated.
 std::vector<CompiledEffect> compileEffect(const scene::Effect& effect);
+
+/// Throws an input Error at a module whose particles depend on more than effect, seed and tick. `doing`:
+/// what asks for that.
+void requireReplayable(std::span<const CompiledEffect> populations, const char* doing);
 
 /// The effects in the order of compileEffect().
 std::vector<const scene::Effect*> listPopulations(const scene::Effect& effect);

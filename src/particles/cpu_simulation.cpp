@@ -11,7 +11,9 @@ namespace brume::particles {
 CpuSimulation::CpuSimulation(const scene::Effect& effect, std::uint64_t seed,
                              std::uint32_t instance, const scene::Placement& placement)
     : mSpace(placement, effect.tickRate) {
-    for (CompiledEffect& compiled : compileEffect(effect)) {
+    std::vector<CompiledEffect> populations = compileEffect(effect);
+    requireReplayable(populations, "simulating on the CPU");
+    for (CompiledEffect& compiled : populations) {
         Population& population = mPopulations.emplace_back(Population{.effect = compiled});
         population.instance = instanceParameters(
             seed, instance, static_cast<std::uint32_t>(mPopulations.size() - 1));

@@ -11,7 +11,7 @@ namespace brume::particles {
 /// seed, instance and tick alone.
 class CpuSimulation {
   public:
-    /// Throws an input Error as compileEffect().
+    /// Throws an input Error as compileEffect() and requireReplayable().
     CpuSimulation(const scene::Effect& effect, std::uint64_t seed, std::uint32_t instance = 0,
                   const scene::Placement& placement = {});
 

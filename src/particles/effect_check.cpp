@@ -111,7 +111,7 @@ void checkSubEmitter(const scene::SubEmitter& sub, const scene::Effect& parent) 
 
 void checkEffect(const scene::Effect& effect, bool isChild) {
     constexpr std::uint32_t kMaxCapacity = 1u << 26u;
-    check((effect.capacity >= 1 || effect.isCut) && effect.capacity <= kMaxCapacity, "",
+    check((effect.capacity >= 1 || effect.uncutCapacity > 0) && effect.capacity <= kMaxCapacity, "",
           fmt::format("'capacity' is {}, 1 to {} allowed", effect.capacity, kMaxCapacity));
     checkRange(effect.tickRate, 1, 1e5, "", "'tickRate'");
     checkRange(effect.thinning.distance, 0, 1e9, "", "'distance' of 'thinning'");

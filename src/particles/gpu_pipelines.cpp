@@ -4,6 +4,7 @@
 #include <spv/particles/appearance.comp.hpp>
 #include <spv/particles/child_batches.comp.hpp>
 #include <spv/particles/child_offsets.comp.hpp>
+#include <spv/particles/collide_depth.comp.hpp>
 #include <spv/particles/count.comp.hpp>
 #include <spv/particles/offsets.comp.hpp>
 #include <spv/particles/step.comp.hpp>
@@ -62,6 +63,19 @@ void GpuPopulation::makePipelines(gpu::Device& device) {
                        {kBindingEffect, kBindingState, kBindingTotals, kBindingParticleSpheres,
                         kBindingFieldValues, kBindingAppearance, kBindingInstances},
                        0);
+    if (mEffect.depthCollider) {
+        gpu::ComputePipelineDesc desc;
+        desc.name = "particles.collide_depth";
+        desc.spirv = spv::particles_collide_depth_comp;
+        for (std::uint32_t word = 0; word < kStateWords; ++word)
+            desc.bindings.push_back({.number = kBindingState + word});
+        desc.bindings.push_back({.number = kBindingTotals});
+        desc.bindings.push_back({.number = kBindingDepthCollider});
+        desc.bindings.push_back(
+            {.number = kBindingSceneDepth, .type = gpu::BindingType::SampledImage});
+        desc.specialization = {mWorkgroupSize};
+        mCollideDepth = gpu::ComputePipeline(device, desc);
+    }
     if (mEffect.subEmitterCount == 0) return;
     mChildOffsets = make("particles.child_offsets", spv::particles_child_offsets_comp,
                          {kBindingTicks, kBindingRecordCounts, kBindingChildTotals}, kChildBytes);

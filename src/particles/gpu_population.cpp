@@ -149,6 +149,11 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
         makeBuffer(device, "particles.appearance",
                    sizeof(shader::AppearanceFrame) +
                        mInstanceCount * std::uint64_t{sizeof(shader::AppearancePlace)});
+    if (mEffect.depthCollider)
+        mDepthCollision =
+            makeBuffer(device, "particles.depth_collision",
+                       sizeof(shader::DepthCollision) +
+                           mInstanceCount * std::uint64_t{sizeof(shader::DepthPlace)});
     mBatches = makeBuffer(device, "particles.batches", mBatchCapacity * sizeof(shader::BirthBatch));
     mParameters = makeFilledBuffer<shader::EffectParameters>(device, "particles.parameters",
                                                              {&mEffect.parameters, 1});
@@ -194,6 +199,7 @@ const gpu::Buffer* GpuPopulation::bufferOf(std::uint32_t binding) const {
         case shader::kBindingAppearance: return &mAppearanceData;
         case shader::kBindingInstanceTicks: return &mInstanceTicks;
         case shader::kBindingInstanceNoise: return &mInstanceNoise;
+        case shader::kBindingDepthCollider: return &mDepthCollision;
         default: return nullptr;
     }
 }
@@ -221,7 +227,7 @@ std::uint64_t GpuPopulation::bytes() const {
     for (const gpu::Buffer* buffer :
          {&mStates[0], &mStates[1], &mParameters, &mEmitters, &mInstances, &mTriangles,
           &mFieldValues, &mBatches, &mTicks, &mChunks, &mGroups, &mTotals, &mRecords, &mRecordCounts,
-          &mAppearanceData, &mInstanceTicks, &mInstanceNoise})
+          &mAppearanceData, &mInstanceTicks, &mInstanceNoise, &mDepthCollision})
         sum += buffer->bytes();
     return sum;
 }
@@ -359,6 +365,7 @@ void GpuPopulation::recordTick(gpu::Commands& commands, const shader::Tick& tick
     dispatch("particles.totals", mTotalsPass, mInstanceCount);
     dispatch("particles.step", mStep, std::uint64_t{tick.chunks} * mInstanceCount);
     mCurrent = 1 - mCurrent;
+    recordDepthCollision(commands, tick.slots);
 }
 
 void GpuPopulation::recordChildren(gpu::Commands& commands, const shader::Tick& tick,

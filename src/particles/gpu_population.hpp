@@ -10,6 +10,7 @@
 #include <gpu/submitter.hpp>
 #include <gpu/timer_pool.hpp>
 #include <particles/compiled_effect.hpp>
+#include <scene/camera.hpp>
 
 namespace brume::particles {
 
@@ -26,6 +27,13 @@ struct EffectInstance {
     std::uint64_t seed = 0;
     std::uint32_t instance = 0;
     scene::Placement placement{};  ///< of effects in world space
+};
+
+/// What the module collide_depth collides with; everything must live until the commands are done.
+struct SceneDepth {
+    const gpu::Image* distance = nullptr;  ///< along the rays of the camera, m; ready to be sampled
+    const gpu::Sampler* sampler = nullptr;
+    scene::CameraFrame camera;  ///< as large as the image
 };
 
 /// Ticks that are recorded together, because their parameters are uploaded together.
@@ -71,6 +79,11 @@ class GpuPopulation {
                           const shader::AppearanceFrame& frame,
                           std::span<const shader::AppearancePlace> places) const;
 
+    /// From now on particles collide with it; `places`: one per instance.
+    void recordSceneDepth(gpu::Commands& commands, const SceneDepth& depth,
+                          std::span<const shader::DepthPlace> places);
+    void forgetSceneDepth() { mSceneDepth.reset(); }
+
     /// Of all instances together.
     Counters readCounters(gpu::Submitter& submitter) const;
     /// Also the strands, if the effect keeps them.
@@ -87,6 +100,7 @@ class GpuPopulation {
     void makePipelines(gpu::Device& device);
     std::vector<std::uint32_t> specialization() const;
     shader::Tick makeTick(std::uint64_t tick, const TickBirths& births, std::uint32_t firstBatch);
+    void recordDepthCollision(gpu::Commands& commands, std::uint32_t slots);
     void addBatches(std::uint64_t tick, std::span<const InstanceSpace> spaces);
     void addInstanceTicks(std::uint64_t tick, std::span<const InstanceSpace> spaces);
     /// Batches of a tick at most, of all instances that have their own.
@@ -120,10 +134,12 @@ class GpuPopulation {
     gpu::Buffer mRecords, mRecordCounts;
     gpu::Buffer mAppearanceData;
     gpu::Buffer mInstanceTicks, mInstanceNoise;
+    gpu::Buffer mDepthCollision;
+    std::optional<SceneDepth> mSceneDepth;
     std::vector<shader::InstanceParameters> mInstanceData;
     std::uint32_t mTicksPerPart = 1;
     gpu::ComputePipeline mCount, mOffsets, mTotalsPass, mStep, mAppearance;
-    gpu::ComputePipeline mChildOffsets, mChildBatches;
+    gpu::ComputePipeline mChildOffsets, mChildBatches, mCollideDepth;
 };
 
 }  // namespace brume::particles

@@ -43,6 +43,16 @@ class GpuSimulation {
     /// In world space: the world counts from another point now; nothing moves.
     void rebase(const dvec3& newOrigin);
 
+    /// Whether a population has the module collide_depth, which does nothing before recordSceneDepth().
+    bool wantsSceneDepth() const;
+    /// The ticks recorded from now on collide with what a picture shows; `worldFromEffect`: where
+    /// the instances are. The image must stay until the next call or forgetSceneDepth().
+    void recordSceneDepth(gpu::Commands& commands, const SceneDepth& depth,
+                          std::span<const dmat4> worldFromEffect);
+    void forgetSceneDepth() {
+        for (const auto& population : mPopulations) population->forgetSceneDepth();
+    }
+
     std::uint32_t populationCount() const { return static_cast<std::uint32_t>(mPopulations.size()); }
     std::uint32_t instanceCount() const { return mPopulations[0]->instanceCount(); }
 

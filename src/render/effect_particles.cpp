@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -71,6 +72,8 @@ EffectParticles::EffectParticles(gpu::Device& device, const PreparedScene& prepa
         mSimulations.push_back(std::make_unique<particles::GpuSimulation>(
             device, prepared.scene.effects[roots[0]].effect, instances));
     }
+    for (const auto& simulation : mSimulations)
+        mShownSlots.emplace_back(simulation->populationCount(), 0);
 }
 
 std::vector<std::uint64_t> EffectParticles::keysOf(const std::vector<std::size_t>& roots) const {
@@ -99,8 +102,10 @@ std::uint64_t EffectParticles::ticksBehind() const {
 
 void EffectParticles::groupInstances() {
     const std::vector<scene::EffectInstance>& effects = mPrepared->scene.effects;
-    // A budget may have left instances of one effect different capacities.
-    std::map<std::tuple<std::filesystem::path, double, std::vector<std::uint32_t>>, std::size_t>
+    // What is in the same tick now must stay so: all that decides about it is alike. A budget may
+    // have left instances of one effect different capacities.
+    std::map<std::tuple<std::filesystem::path, std::array<double, 5>, std::vector<std::uint32_t>>,
+             std::size_t>
         groups;
     Place place;
     for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -112,7 +117,10 @@ void EffectParticles::groupInstances() {
             std::vector<std::uint32_t> capacities;
             for (const scene::Effect* effect : particles::listPopulations(effects[i].effect))
                 capacities.push_back(effect->capacity);
-            const std::tuple key(effects[i].file, effects[i].simulatedSeconds(), capacities);
+            const scene::EffectInstance& one = effects[i];
+            const std::tuple key(
+                one.file,
+                std::array{one.time, one.start, one.timeScale, one.loop, one.prewarm}, capacities);
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();
@@ -131,8 +139,27 @@ void EffectParticles::recordSimulate(gpu::Commands& commands, std::uint64_t maxT
         const double time = mPrepared->scene.effects[mRoots[i][0]].simulatedSeconds();
         for (std::uint32_t k = 0; k < simulation.instanceCount(); ++k)
             simulation.moveTo(k, mPrepared->scene.effects[mRoots[i][k]].worldFromEffect, time);
+        recordSceneDepth(commands, i);
         simulation.recordAdvanceTo(commands, time, maxTicks);
     }
+}
+
+bool EffectParticles::wantsSceneDepth() const {
+    return std::any_of(mSimulations.begin(), mSimulations.end(),
+                       [](const auto& simulation) { return simulation->wantsSceneDepth(); });
+}
+
+void EffectParticles::setSceneDepth(const std::optional<particles::SceneDepth>& depth) {
+    mSceneDepth = depth;
+    for (const auto& simulation : mSimulations) simulation->forgetSceneDepth();
+}
+
+void EffectParticles::recordSceneDepth(gpu::Commands& commands, std::size_t simulation) {
+    if (!mSceneDepth || !mSimulations[simulation]->wantsSceneDepth()) return;
+    std::vector<dmat4> placed;
+    for (const std::size_t root : mRoots[simulation])
+        placed.push_back(mPrepared->scene.effects[root].placed());
+    mSimulations[simulation]->recordSceneDepth(commands, *mSceneDepth, placed);
 }
 
 void EffectParticles::declare(frame::FrameBuilder& frame, const GpuScene& scene,
@@ -165,10 +192,29 @@ void EffectParticles::recordAppearances(gpu::Commands& commands, const GpuScene&
                                        .firstId = firstParticleId(i),
                                        .firstSphere = scene.firstEffectSphere(i)});
             }
-            if (!appearances.empty())
-                mSimulations[s]->recordAppearance(commands, p, viewerOf(scene.camera()),
-                                                  appearances, spheres);
+            if (appearances.empty()) continue;
+            clearLeftSlots(commands, mSimulations[s]->slotCount(p), mShownSlots[s][p], appearances,
+                           spheres);
+            mSimulations[s]->recordAppearance(commands, p, viewerOf(scene.camera()), appearances,
+                                              spheres);
         }
+}
+
+void EffectParticles::clearLeftSlots(
+    gpu::Commands& commands, std::uint32_t slots, std::uint32_t& shown,
+    const std::vector<particles::GpuSimulation::Appearance>& appearances,
+    const gpu::Buffer& spheres) {
+    if (slots < shown) {
+        // Whatever has read them is done.
+        commands.fullBarrier();
+        for (const auto& appearance : appearances)
+            commands.fillBuffer(
+                spheres, 0,
+                (std::uint64_t{appearance.firstSphere} + slots) * sizeof(shader::SphereData),
+                std::uint64_t{shown - slots} * sizeof(shader::SphereData));
+        commands.fullBarrier();
+    }
+    shown = slots;
 }
 
 std::vector<Box3> EffectParticles::readBounds(gpu::Submitter& submitter, const GpuScene& scene) {
@@ -213,6 +259,8 @@ particles::CheckpointKey EffectParticles::checkpointKeyOf(std::size_t simulation
 
 void EffectParticles::writeCheckpoints(gpu::Submitter& submitter,
                                        const std::filesystem::path& folder, int frame) const {
+    for (const auto& simulation : mSimulations)
+        particles::requireReplayable(simulation->effects(), "writing checkpoints");
     for (std::size_t s = 0; s < mSimulations.size(); ++s)
         for (std::size_t i = 0; i < mRoots[s].size(); ++i)
             particles::writeCheckpoint(

@@ -26,14 +26,24 @@ class EffectParticles {
     /// that what lags behind catches up over several calls.
     void recordSimulate(gpu::Commands& commands, std::uint64_t maxTicks = ~std::uint64_t{0});
 
+    /// Whether an effect collides with what the picture shows (module collide_depth).
+    bool wantsSceneDepth() const;
+    /// What ticks recorded from now on collide with; it must stay as long. Null: nothing.
+    void setSceneDepth(const std::optional<particles::SceneDepth>& depth);
+
     /// Pass "particles.appearance": fills the effects' slots of `spheres`. Nothing without effects.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, frame::BufferRef spheres) const;
+
+    /// The scene counts from another point now: its transforms have changed, and nothing moves.
+    void rebase(const dvec3& newOrigin) {
+        for (const auto& simulation : mSimulations) simulation->rebase(newOrigin);
+    }
 
     /// Ticks that the effect farthest from its time is behind.
     std::uint64_t ticksBehind() const;
 
     /// Writes the state of each instance to a file of its own in `folder`. Submits and waits; throws
-    /// a failure Error.
+    /// a failure Error, an input Error for effects that are not replayable.
     void writeCheckpoints(gpu::Submitter& submitter, const std::filesystem::path& folder,
                           int frame) const;
     /// Goes on from the last states in `folder` that are complete and not after `frame`; from the
@@ -64,8 +74,14 @@ class EffectParticles {
     };
     void groupInstances();
     std::uint32_t rootOf(const Place& place) const;  // the entry of its root
+    void recordSceneDepth(gpu::Commands& commands, std::size_t simulation);
     void recordAppearances(gpu::Commands& commands, const GpuScene& scene,
                            const gpu::Buffer& spheres) const;
+    /// Empties the slots that a simulation which began anew has no particles in any more.
+    static void clearLeftSlots(
+        gpu::Commands& commands, std::uint32_t slots, std::uint32_t& shown,
+        const std::vector<particles::GpuSimulation::Appearance>& appearances,
+        const gpu::Buffer& spheres);
     particles::CheckpointKey checkpointKeyOf(std::size_t simulation, std::size_t entry) const;
     std::vector<std::uint64_t> keysOf(const std::vector<std::size_t>& roots) const;
     std::unique_ptr<particles::GpuSimulation> takeOver(const std::vector<std::uint64_t>& keys);
@@ -76,6 +92,8 @@ class EffectParticles {
     std::vector<std::unique_ptr<particles::GpuSimulation>> mSimulations;
     std::vector<std::vector<std::uint64_t>> mKeys;  // by simulation, of its instances
     mutable std::vector<particles::GpuSimulation::Appearance> mAppearances;  // keeps its memory
+    mutable std::vector<std::vector<std::uint32_t>> mShownSlots;  // by simulation, population
+    std::optional<particles::SceneDepth> mSceneDepth;
     std::optional<particles::GpuBounds> mBounds;  // once it is asked for
 };
 

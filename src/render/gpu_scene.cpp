@@ -158,9 +158,21 @@ gpu::Buffer GpuScene::makeArray(const char* name, std::size_t count) const {
     return {*mDevice, {.name = name, .bytes = std::max<std::size_t>(count, 1) * sizeof(T)}};
 }
 
+/// Keeps what is large enough; what grows does so by half, for the next time.
+template <typename T>
+void GpuScene::growArray(gpu::Buffer& buffer, const char* name, std::size_t count) const {
+    if (buffer && buffer.bytes() >= count * sizeof(T)) return;
+    buffer = makeArray<T>(name, buffer ? count + count / 2 : count);
+}
+
 void GpuScene::setView(const View& view) {
     if (view.camera.position != mView.camera.position) mIsMoved = true;
     mView = view;
+}
+
+void GpuScene::rebase(const dvec3& newOrigin) {
+    for (dvec3& corner : mBoxCorners) corner -= newOrigin;
+    mIsMoved = true;
 }
 
 void GpuScene::setShadows(const std::vector<VkDeviceAddress>& maps, VkDeviceAddress shares) {
@@ -339,12 +351,13 @@ void GpuScene::makeVolumes() {
 
 const gpu::Image* GpuScene::makeTexture(const scene::Texture* texture) {
     gpu::Image& image = mTextures[texture];
-    if (!image)
-        image = gpu::Image(
-            *mDevice, {.name = texture ? "render.texture " + texture->name : "render.white",
-                       .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                       .width = texture ? static_cast<std::uint32_t>(texture->width) : 1,
-                       .height = texture ? static_cast<std::uint32_t>(texture->height) : 1});
+    if (image) return &image;
+    mNewTextures.push_back(texture);
+    image = gpu::Image(
+        *mDevice, {.name = texture ? "render.texture " + texture->name : "render.white",
+                   .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                   .width = texture ? static_cast<std::uint32_t>(texture->width) : 1,
+                   .height = texture ? static_cast<std::uint32_t>(texture->height) : 1});
     return &image;
 }
 
@@ -365,13 +378,37 @@ void GpuScene::makeMeshes() {
             .emissionTexture = makeTexture(material.emissionTexture.get())};
         (material.type == scene::MaterialType::Opaque ? mOpaque : mTransparent).push_back(draw);
     }
-    mVertices = makeArray<shader::VertexData>("render.vertices", vertices);
-    mIndices = makeArray<std::uint32_t>("render.indices", indices);
+    growArray<shader::VertexData>(mVertices, "render.vertices", vertices);
+    growArray<std::uint32_t>(mIndices, "render.indices", indices);
     mData.meshes.resize(scene.meshes.size() * shader::kUniformStride);
-    mMeshes = makeArray<std::byte>("render.meshes",
-                                   std::max<std::size_t>(mData.meshes.size(), shader::kUniformStride));
-    mMaterials = makeArray<std::byte>(
-        "render.materials", std::max<std::size_t>(scene.materials.size(), 1) * shader::kUniformStride);
+    growArray<std::byte>(mMeshes, "render.meshes",
+                         std::max<std::size_t>(mData.meshes.size(), shader::kUniformStride));
+    growArray<std::byte>(
+        mMaterials, "render.materials",
+        std::max<std::size_t>(scene.materials.size(), 1) * shader::kUniformStride);
+}
+
+void GpuScene::replaceMeshes() {
+    mOpaque.clear();
+    mTransparent.clear();
+    makeMeshes();
+    mIsMoved = true;
+}
+
+void GpuScene::recordMeshes(gpu::Commands& commands) {
+    std::vector<shader::VertexData> vertices;
+    std::vector<std::uint32_t> indices;
+    for (const scene::Mesh& mesh : mPrepared->scene.meshes) {
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    gpu::upload(commands, mVertices, vertices);
+    gpu::upload(commands, mIndices, indices);
+    for (const scene::Texture* texture : mNewTextures)
+        gpu::upload(commands, mTextures[texture],
+                    texture ? texture->texels : std::vector<vec4>{vec4(1)});
+    mNewTextures.clear();
 }
 
 void GpuScene::recordContent(gpu::Commands& commands) {
@@ -383,24 +420,14 @@ void GpuScene::recordContent(gpu::Commands& commands) {
                            .worldFromIndex = glm::mat3(linear),
                            .medium = scene.volumes[i].medium});
     }
-    std::vector<shader::VertexData> vertices;
-    std::vector<std::uint32_t> indices;
-    for (const scene::Mesh& mesh : scene.meshes) {
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[i]});
-        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
-    }
     std::vector<std::byte> materials(scene.materials.size() * shader::kUniformStride);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         setUniform(materials, i, makeMaterial(scene.materials[i]));
     gpu::upload(commands, mVolumes, volumes);
     gpu::upload(commands, mBrickValues, mBrickData);
     mBrickData = {};
-    gpu::upload(commands, mVertices, vertices);
-    gpu::upload(commands, mIndices, indices);
     gpu::upload(commands, mMaterials, materials);
-    for (const auto& [texture, image] : mTextures)
-        gpu::upload(commands, image, texture ? texture->texels : std::vector<vec4>{vec4(1)});
+    recordMeshes(commands);
     const scene::Texture* environment = scene.background.environment.get();
     gpu::upload(commands, mEnvironment,
                 environment ? environment->texels : std::vector<vec4>{vec4(0)});

@@ -41,9 +41,17 @@ class GpuScene {
     /// The scene's lights, media, spheres, transforms or background have other values than before,
     /// but nothing is added or removed.
     void invalidate() { mIsMoved = true; }
+    /// The scene counts from another point now; its transforms have changed.
+    void rebase(const dvec3& newOrigin);
     /// Records the upload of what changed since recordContent() or the last call, ordered after all
     /// that was recorded before and before all that follows.
     void recordView(gpu::Commands& commands, gpu::UploadRing& ring);
+
+    /// The scene's meshes have become others, of materials that it had: makes room for them.
+    /// Their upload is that of recordMeshes() and the next recordView(); nothing that uses the old
+    /// ones may be in flight.
+    void replaceMeshes();
+    void recordMeshes(gpu::Commands& commands);
 
     /// Puts all spheres, those of effects too, into an order drawn with that seed: no image may
     /// change.
@@ -89,6 +97,8 @@ class GpuScene {
     const gpu::Image* makeTexture(const scene::Texture* texture);
     template <typename T>
     gpu::Buffer makeArray(const char* name, std::size_t count) const;
+    template <typename T>
+    void growArray(gpu::Buffer& buffer, const char* name, std::size_t count) const;
 
     gpu::Device* mDevice;
     const PreparedScene* mPrepared;
@@ -105,6 +115,7 @@ class GpuScene {
     gpu::Buffer mVertices, mIndices, mMeshes, mMaterials;
     gpu::Image mEnvironment;
     std::map<const scene::Texture*, gpu::Image> mTextures;
+    std::vector<const scene::Texture*> mNewTextures;  // that are not uploaded yet
     gpu::Sampler mTextureSampler, mTexelSampler;
     std::vector<oit::SurfaceDraw> mOpaque, mTransparent;
     std::vector<std::uint32_t> mFirstEffectSphere;

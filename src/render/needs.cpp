@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <particles/appearance_curves.hpp>
 #include <render/needs.hpp>
 #include <shadows/store_info.hpp>
 
@@ -100,7 +101,7 @@ float findLargestTint(const PreparedScene& prepared) {
     };
     for (const scene::MediumSphere& sphere : prepared.spheres) extend(sphere.tint);
     for (const scene::EffectInstance& effect : prepared.scene.effects)
-        for (const auto& [age, tint] : effect.effect.tint.keys) extend(vec3(tint));
+        largest = std::max(largest, particles::largestTint(effect.effect));
     return largest;
 }
 

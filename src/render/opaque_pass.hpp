@@ -11,7 +11,8 @@ class OpaquePass {
   public:
     OpaquePass(gpu::Device& device, const oit::Needs& needs);
 
-    /// Passes "render.background" and "render.opaque"; sets inputs.opaqueT and inputs.opaqueColor.
+    /// Passes "render.background" and "render.opaque"; sets inputs.opaqueColor, and
+    /// inputs.opaqueT if that is not given.
     void declare(frame::FrameBuilder& frame, const GpuScene& scene, oit::Inputs& inputs) const;
 
     /// Pass "render.opaque" alone, over what inputs.opaqueT and inputs.opaqueColor already show;

@@ -17,7 +17,8 @@ frame::ImageRef createTarget(frame::FrameBuilder& frame, const oit::Inputs& inpu
 
 void createOpaqueTargets(frame::FrameBuilder& frame, oit::Inputs& inputs) {
     inputs.opaqueColor = createTarget(frame, inputs, "render.opaque_color", kColorFormat);
-    inputs.opaqueT = createTarget(frame, inputs, "render.opaque_t", kDistanceFormat);
+    if (!inputs.opaqueT)
+        inputs.opaqueT = createTarget(frame, inputs, "render.opaque_t", kDistanceFormat);
 }
 
 frame::ImageRef createOpaqueDepth(frame::FrameBuilder& frame, const oit::Inputs& inputs) {

@@ -5,6 +5,7 @@
 #include <render/backdrop.hpp>
 #include <render/composer.hpp>
 #include <render/needs.hpp>
+#include <render/opaque_targets.hpp>
 #include <render/renderer.hpp>
 #include <render/shadow_probe.hpp>
 
@@ -24,6 +25,7 @@ struct SurfacedScene {
     std::optional<PreparedScene> scene;
     std::unique_ptr<EffectParticles> effects;  // at their times
     std::vector<scene::Mesh> surfaces;
+    std::size_t stillMeshCount = 0;  // of the scene, before those
 
     SurfacedScene(gpu::Device& device, gpu::Submitter& submitter, const PreparedScene& prepared,
                   EffectParticles* previous) {
@@ -39,8 +41,23 @@ struct SurfacedScene {
         submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
             effects->recordSimulate(commands);
         });
-        surfaces = effects->readSurfaces(submitter);
-        scene->scene.meshes.insert(scene->scene.meshes.end(), surfaces.begin(), surfaces.end());
+        stillMeshCount = scene->scene.meshes.size();
+        replaceSurfaces(effects->readSurfaces(submitter));
+    }
+
+    void replaceSurfaces(std::vector<scene::Mesh> now) {
+        surfaces = std::move(now);
+        std::vector<scene::Mesh>& meshes = scene->scene.meshes;
+        meshes.resize(stillMeshCount);
+        meshes.insert(meshes.end(), surfaces.begin(), surfaces.end());
+    }
+
+    /// The caller's scene has moved on in time or is seen from elsewhere.
+    void follow(const PreparedScene& prepared) {
+        scene->scene.camera = prepared.scene.camera;
+        scene->scene.image = prepared.scene.image;
+        for (std::size_t i = 0; i < prepared.scene.effects.size(); ++i)
+            scene->scene.effects[i].time = prepared.scene.effects[i].time;
     }
 };
 
@@ -55,6 +72,7 @@ struct Renderer::Impl {
           pool(device),
           timers(device),
           ring(device, "render.upload", 1),
+          given(prepared_),
           surfaced(device, submitter, prepared_, previous),
           prepared(surfaced.scene ? *surfaced.scene : prepared_),
           composer(device, prepared, options, makeView(prepared),
@@ -99,7 +117,34 @@ struct Renderer::Impl {
         return seconds;
     }
 
+    /// The opaque meshes as the scene's present view shows them, for particles that hit them.
+    void drawSceneDepth() {
+        if (surfaced.scene)
+            throw inputError("simulating", "",
+                             "module 'collide_depth' in a scene with ribbons or billboards, which "
+                             "are simulated before there is a picture: only one of them allowed");
+        const VkExtent2D extent = composer.scene.extent();
+        if (!sceneDepth || sceneDepth.extent().width != extent.width ||
+            sceneDepth.extent().height != extent.height)
+            sceneDepth = gpu::Image(composer.device, {.name = "render.scene_depth",
+                                                      .format = kDistanceFormat,
+                                                      .width = extent.width,
+                                                      .height = extent.height,
+                                                      .usage = gpu::kUsageSampled |
+                                                               gpu::kUsageColor});
+        frame::FrameBuilder frame(pool);
+        oit::Inputs inputs = composer.scene.makeInputs();
+        inputs.opaqueT = frame.importImage(sceneDepth);
+        composer.opaque.declare(frame, composer.scene, inputs);
+        frame.finishAs(inputs.opaqueT, frame::Access::ComputeSample);
+        submitter.submitAndWait("scene depth",
+                                [&](gpu::Commands& commands) { frame.execute(commands); });
+        composer.effects.setSceneDepth(particles::SceneDepth{
+            &sceneDepth, composer.scene.makeInputs().texelSampler, composer.scene.camera()});
+    }
+
     void simulate() {
+        if (composer.effects.wantsSceneDepth()) drawSceneDepth();
         submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
             composer.effects.recordSimulate(commands);
         });
@@ -111,16 +156,25 @@ struct Renderer::Impl {
     }
 
     bool advance() {
-        if (composer.shuffleSeed != 0 || surfaced.scene) return false;
+        if (composer.shuffleSeed != 0) return false;
+        if (surfaced.scene) surfaced.follow(given);
         const View view = makeView(prepared);
         if (view.camera.type != composer.scene.camera().type) return false;
         const bool isTimeNew = times != findTimes();
         if (isTimeNew) simulate();
         times = findTimes();
+        if (surfaced.scene && !replaceSurfaces()) return false;
+        const bool areParticlesNew =
+            isTimeNew || (isThinned() && view.camera.position != composer.scene.camera().position);
         changeSize({static_cast<std::uint32_t>(view.camera.width),
                     static_cast<std::uint32_t>(view.camera.height)});
         composer.scene.setView(view);
-        if (composer.shadows && isTimeNew) {
+        if (surfaced.scene && composer.shadows) {
+            remakeShadows();
+            prepareMethod();
+            return true;
+        }
+        if (composer.shadows && areParticlesNew) {
             casterBounds = translucentBounds();
             // Lights without casters have no maps.
             if (casterBounds.isEmpty() != composer.casters->casters().translucentBounds.isEmpty())
@@ -129,11 +183,37 @@ struct Renderer::Impl {
         // Of a camera that moves, maps that are kept need nothing but their new origin.
         const auto keep = composer.shadowSettings.find("keep");
         const bool areMapsKept =
-            !isTimeNew && keep != composer.shadowSettings.end() && keep->second == "true";
+            !areParticlesNew && keep != composer.shadowSettings.end() && keep->second == "true";
         if (composer.shadows && !areMapsKept) composer.shadows->invalidate();
         uploadView(view, areMapsKept);
         prepareMethod();
         return true;
+    }
+
+    /// Ribbons and billboards as they are now. False if the scene needs other techniques with them.
+    bool replaceSurfaces() {
+        surfaced.replaceSurfaces(composer.effects.readSurfaces(submitter));
+        if (findNeeds(prepared) != composer.scene.makeInputs().needs) return false;
+        composer.scene.replaceMeshes();
+        submitter.submitAndWait("upload surfaces", [&](gpu::Commands& commands) {
+            composer.scene.recordMeshes(commands);
+        });
+        return true;
+    }
+
+    /// The triangles that cast shadows are others now.
+    void remakeShadows() {
+        composer.areShadowsReady = false;
+        areMapsBuilt = false;
+        prepareShadows(translucentBounds());
+    }
+
+    /// Whether particles look otherwise from another distance.
+    bool isThinned() const {
+        const auto& effects = prepared.scene.effects;
+        return std::any_of(effects.begin(), effects.end(), [](const auto& effect) {
+            return effect.effect.thinning.distance > 0;
+        });
     }
 
     void uploadView(const View& view, bool areMapsKept) {
@@ -314,8 +394,9 @@ struct Renderer::Impl {
     frame::ResourcePool pool;
     gpu::TimerPool timers;
     gpu::UploadRing ring;
+    const PreparedScene& given;
     SurfacedScene surfaced;
-    const PreparedScene& prepared;
+    const PreparedScene& prepared;  // with the surfaces
     Composer composer;
     bool areMapsBuilt = false;  // for the particles as they are
     bool isOverflowKnown = false;
@@ -325,6 +406,7 @@ struct Renderer::Impl {
     std::optional<Backdrop> shown;
     VkFormat shownFormat = VK_FORMAT_UNDEFINED;
     gpu::Buffer image, triangles, trianglesRead;
+    gpu::Image sceneDepth;
 };
 
 Renderer::Renderer(gpu::Device& device, const PreparedScene& scene, const Options& options,
@@ -397,6 +479,7 @@ EffectContents Renderer::readEffects() const {
 bool Renderer::advance() { return mImpl->advance(); }
 
 std::unique_ptr<EffectParticles> Renderer::takeEffects() {
+    mImpl->composer.effects.setSceneDepth({});
     return std::make_unique<EffectParticles>(std::move(mImpl->composer.effects));
 }
 

@@ -27,6 +27,9 @@ class ShadowCasters {
     /// The casters as seen from another origin; records the upload. Barriers are the caller's.
     void recordOrigin(gpu::Commands& commands, gpu::UploadRing& ring, const dvec3& origin);
 
+    /// The scene counts from another point now; its transforms have changed.
+    void rebase(const dvec3& newOrigin) { mCasters.origin -= newOrigin; }
+
     const shadows::Casters& casters() const { return mCasters; }
     std::uint64_t bytes() const;
 

@@ -155,7 +155,7 @@ enum class Shadowing {
 struct Effect {
     std::uint32_t capacity = 10000;
     std::uint32_t budget = 0;  ///< particles of all its instances in a scene together; 0: no limit
-    bool isCut = false;        ///< a budget has lowered the capacity, to 0 maybe
+    std::uint32_t uncutCapacity = 0;  ///< before a budget lowered the capacity, to 0 maybe; 0: none has
     Thinning thinning;
     double tickRate = 120;  ///< simulation steps per second
     /// Particles stay behind when the instance moves, and modules act along the world's axes, from

@@ -363,6 +363,82 @@ TEST_F(HostTest, VolumeOfAFile_IsReadByTheHost) {
     EXPECT_NE(std::string(brumeVdbLastError()).find("scene.json"), std::string::npos);
 }
 
+// A thousand kilometres away, and then counted from there: the same picture, and the effect goes on.
+TEST_F(HostTest, RebasedScene_ShowsTheSame) {
+    const Context context(host().contextInfo());
+    Scene scene = makeScene(context, kSpheresScene, "sorted");
+    auto puffs = init<BrumeEffect>();
+    puffs.text = kEffect;
+    BrumeId id = 0;
+    check(brumeAddEffect(scene.get(), &puffs, &id));
+    const auto step = [&](double seconds, const dvec3& position) {
+        host().draw({0.2f, 0.3f, 0.4f}, 0);
+        host().frame(context.get(), [&](VkCommandBuffer commands) {
+            scene.cmdSimulate(commands, seconds);
+            scene.cmdRender(commands, host().view(position));
+        });
+        return host().read();
+    };
+    const dvec3 home(0, 0, 5), away(1048576, -2097152, 524288);  // sums that floats keep
+    const std::vector<vec4> before = step(0.5, home);
+    double lo[3], hi[3], movedLo[3], movedHi[3];
+    check(brumeGetEffectBounds(scene.get(), id, lo, hi));
+    check(brumeRebaseScene(scene.get(), &away.x));
+    const auto expectSame = [&](const std::vector<vec4>& now) {
+        for (std::size_t i = 0; i < now.size(); ++i)
+            ASSERT_LT(glm::length(now[i] - before[i]), 1e-5) << i;
+    };
+    expectSame(step(0, home - away));
+    check(brumeGetEffectBounds(scene.get(), id, movedLo, movedHi));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_LT(lo[i], hi[i]);
+        EXPECT_EQ(movedLo[i], lo[i] - away[i]);
+        EXPECT_EQ(movedHi[i], hi[i] - away[i]);
+    }
+    const dvec3 back = -away;
+    check(brumeRebaseScene(scene.get(), &back.x));
+    expectSame(step(0, home));
+    EXPECT_NE(step(0.2, home), before);
+    EXPECT_EQ(brumeRebaseScene(scene.get(), nullptr), BRUME_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(brumeGetEffectBounds(scene.get(), id + 1000, lo, hi), BRUME_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(HostTest, BudgetOfARemovedEffect_GoesToTheOneThatWasCut) {
+    const Context context(host().contextInfo());
+    std::string text = kSpheresScene;
+    text.insert(1, R"( "particleBudget": 300,)");
+    Scene scene = makeScene(context, text.c_str(), "sorted");
+    auto puffs = init<BrumeEffect>();
+    puffs.text = kEffect;  // wants 200
+    BrumeId first = 0;
+    check(brumeAddEffect(scene.get(), &puffs, &first));
+    check(brumeAddEffect(scene.get(), &puffs, nullptr));
+    const auto countSlots = [&] {
+        host().draw({0.2f, 0.3f, 0.4f}, 0);
+        host().frame(context.get(), [&](VkCommandBuffer commands) {
+            scene.cmdSimulate(commands, 0.1);
+            scene.cmdRender(commands, host().view());
+        });
+        return scene.counters().sphereSlots;
+    };
+    EXPECT_EQ(countSlots(), 2 + 300u);
+    check(brumeRemove(scene.get(), first));
+    EXPECT_EQ(countSlots(), 2 + 200u);
+    EXPECT_EQ(scene.counters().ticksBehind, 0u);
+}
+
+TEST_F(HostTest, EffectsThatNeedAPicture_AreRefusedAtTheirModule) {
+    const Context context(host().contextInfo());
+    Scene scene = makeScene(context, kSpheresScene, "sorted");
+    auto puffs = init<BrumeEffect>();
+    puffs.text = R"({ "version": 1, "medium": "smoke", "emitters": [ { "rate": 9, "lifetime": 1 } ],
+      "modules": [ { "type": "collide_depth" } ] })";
+    EXPECT_EQ(brumeAddEffect(scene.get(), &puffs, nullptr), BRUME_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(brumeLastError()).find("effect.json:2:20: module 'collide_depth'"),
+              std::string::npos)
+        << brumeLastError();
+}
+
 TEST_F(HostTest, VolumeByACall_IsSeen) {
     const Context context(host().contextInfo());
     Scene scene = makeScene(context, kSpheresScene, "sorted");

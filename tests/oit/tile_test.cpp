@@ -186,6 +186,23 @@ TEST_F(Tile, PointLight_IsExact) {
     expectExact(s, "point light");
 }
 
+TEST_F(Tile, MediaBehindAWall_AreNotListed) {
+    TestScene s(48, 48);
+    s.addDaylight();
+    const std::uint32_t smoke = s.addMedium(2, 0.8);
+    for (int i = 0; i < 20; ++i) s.addSphere(smoke, dvec3(0.1 * i - 1, 0, 1), 0.5);
+    s.addBox(s.addMedium(2, 0.5), dvec3(-1, -1, 1.5), dvec3(1, 1, 2.5));
+    const auto countPairs = [&] { return render(s, mMethod).counters.at("pairs"); };
+    const std::uint64_t all = countPairs();
+    const std::uint32_t wall = s.addMaterial(makeOpaque(dvec3(0.5)));
+    s.addPane(wall, 1.2, 9);
+    EXPECT_LT(countPairs(), all) << "the box stands behind the wall, not all spheres do";
+    expectExact(s, "wall between", 1e-5, 0.01);
+    s.addPane(wall, -1, 9);
+    EXPECT_EQ(countPairs(), 0u);
+    expectExact(s, "wall before", 1e-5, 0.01);
+}
+
 TEST_F(Tile, NothingToSee_IsTheBackground) {
     TestScene s(17, 9);
     expectExact(s, "empty");

@@ -48,6 +48,21 @@ TEST(Budget, OfTheScene_KeepsTheFirstInOrder) {
     EXPECT_EQ(capacitiesOf(scene), (std::vector<std::uint32_t>{100, 50, 30, 30, 0, 0}));
 }
 
+TEST(Budget, OfEffectsThatAreGone_GoesBackToThoseThatWereCut) {
+    scene::Scene scene = makeScene();
+    scene.particleBudget = 210;
+    applyBudgets(scene);
+    scene.effects.erase(scene.effects.begin());
+    const BudgetCut cut = applyBudgets(scene);
+    EXPECT_EQ(capacitiesOf(scene), (std::vector<std::uint32_t>{50, 30, 100, 30, 0}));
+    EXPECT_EQ(cut.changed, (std::vector<std::size_t>{2, 3}));
+    scene.effects.erase(scene.effects.begin(), scene.effects.begin() + 2);
+    EXPECT_EQ(applyBudgets(scene).entries, 0u);
+    EXPECT_EQ(capacitiesOf(scene), (std::vector<std::uint32_t>{100, 50, 30}));
+    EXPECT_EQ(scene.effects[1].effect.subEmitters[0].effect->capacity, 30u);
+    EXPECT_TRUE(applyBudgets(scene).changed.empty());
+}
+
 TEST(Budget, OfAnEffect_CountsItsInstancesAlone) {
     scene::Scene scene = makeScene(140);
     applyBudgets(scene);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <shaders/particles/appearance.h>
 #include <core/error.hpp>
+#include <particles/appearance_curves.hpp>
+#include <particles/blackbody.hpp>
 #include <particles/cpu_simulation.hpp>
 
 #include "effects.hpp"
@@ -67,6 +69,30 @@ TEST(Appearance, Curves_ArePiecewiseLinear) {
     EXPECT_NEAR(at(0.41f).density, 5, 1e-5);
     EXPECT_FLOAT_EQ(at(0.5f).tint.x, 0.5f);
     EXPECT_FLOAT_EQ(at(1).tint.z, 1);
+}
+
+TEST(Appearance, LargestTint_IsThatOfTheHottestMoment) {
+    scene::Effect effect = burstEffect(1);
+    effect.tint.keys = {{0, dvec3(0.5)}, {1, dvec3(2, 1, 1)}};
+    EXPECT_FLOAT_EQ(largestTint(effect), 2);
+    effect.temperature.keys = {{0, 1200}, {0.5, 2400}, {1, 1000}};
+    const double hottest = 1.25 * blackbodyColor(2400).x;
+    EXPECT_GT(hottest, 20);
+    EXPECT_FLOAT_EQ(largestTint(effect), static_cast<float>(hottest));
+}
+
+TEST(CpuSimulation, DepthCollider_IsRefusedAtItsPlace) {
+    scene::Effect effect = burstEffect(1);
+    effect.modules = {moduleSettings("collide_depth")};
+    try {
+        CpuSimulation simulation(effect, 1);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "simulating on the CPU: test.effect.json:3:5: module 'collide_depth' is not "
+                  "replayable, it needs the picture of a device: allowed in 'render' and 'view' "
+                  "with a method of the GPU");
+    }
 }
 
 TEST(CpuSimulation, Spheres_FollowTransformAndAge) {

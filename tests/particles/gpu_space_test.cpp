@@ -72,6 +72,25 @@ TEST_F(GpuSpaceTest, AThousandKilometresAway_HaveTheSameBitsAlsoAfterARebase) {
     }
 }
 
+TEST_F(GpuSpaceTest, MovingInstancesAfterFortyEightHours_HaveTheBitsOfTheTwin) {
+    constexpr double kHours = 48 * 3600.0;
+    scene::Effect effect = worldEffect();
+    effect.subEmitters.clear();  // so that it jumps there
+    effect.capacity = 9000;      // and never runs out
+    const EffectInstance one{
+        3, 1, {dmat4(1), {{0, dvec3(0)}, {kHours, dvec3(2e5, 0, 0)}, {kHours + 9, dvec3(2e5, 90, 0)}}}};
+    GpuSimulation gpu(device(), effect, std::array{one});
+    CpuSimulation cpu(effect, one.seed, one.instance, one.placement);
+    sSubmitter->submitAndWait(
+        "jump", [&](gpu::Commands& commands) { gpu.recordAdvanceTo(commands, kHours + 1.5); });
+    cpu.advanceTo(kHours + 1.5);
+    EXPECT_GT(cpu.counters().alive, 100u);
+    EXPECT_EQ(gpu.tick(), static_cast<std::uint64_t>((kHours + 1.5) * effect.tickRate));
+    expectSame(gpu.readState(*sSubmitter).populations[0], cpu.particles());
+    EXPECT_EQ(gpu.frame(0, dmat4(1)).worldFromParticles, cpu.frame(dmat4(1)).worldFromParticles);
+    EXPECT_NEAR(gpu.frame(0, dmat4(1)).worldFromParticles[3].x, 2e5, 16);
+}
+
 TEST_F(GpuSpaceTest, HostsMoves_LeaveBirthsAlongTheWay) {
     scene::Effect effect;
     effect.isWorldSpace = true;

@@ -67,7 +67,7 @@ TEST(Modules, UnknownModule_ListsTheKnownOnes) {
               "setting up the modules of an effect: test.effect.json:3:5: there is no module "
               "'gravitation', known are gravity, drag, quadratic_drag, curl_noise, vortex, attractor, "
               "velocity_field, buoyancy, collide_plane, collide_sphere, collide_box, "
-              "collide_capsule, collide_level_set, kill_plane, kill_sphere, kill_box");
+              "collide_capsule, collide_level_set, collide_depth, kill_plane, kill_sphere, kill_box");
 }
 
 TEST(Modules, UnknownKey_ListsTheKnownOnes) {

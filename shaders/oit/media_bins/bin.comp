@@ -8,7 +8,17 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kScatter = false;
+layout(constant_id = 1) const uint kKeys = kKeysNothing;
 layout(push_constant, scalar) uniform Push { BinPush push; };
+
+// No ray meets the medium before this distance.
+float smallestDistance(uint i) {
+    if (kKeys == kKeysNothing) return 0.0;
+    uint key = UintArray(push.keys).at[i];
+    // Keys of boxes are made to sort negative distances too.
+    float distance = uintBitsToFloat(kKeys == kKeysOfBoxes ? key & 0x7fffffffu : key);
+    return distance * (1.0 - 1e-5);
+}
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -17,11 +27,13 @@ void main() {
     if (rect.x > rect.y && rect == uvec2(1u, 0u)) return;
     uvec2 first = uvec2(rect.x & 0xffffu, rect.x >> 16),
           last = uvec2(rect.y & 0xffffu, rect.y >> 16);
+    float nearest = smallestDistance(i);
     uint start = first.y + (gl_GlobalInvocationID.y + kBinRowSlices - first.y % kBinRowSlices) %
                                kBinRowSlices;
     for (uint y = start; y <= last.y; y += kBinRowSlices)
         for (uint x = first.x; x <= last.x; ++x) {
             uint tile = y * frame.tiles.x + x;
+            if (nearest > FloatArray(push.limits).at[tile]) continue;
             if (kScatter) {
                 uint slot = UintArray(push.counts).at[tile] +
                             atomicAdd(UintArray(push.cursors).at[tile], 1u);

@@ -13,12 +13,18 @@ struct BinPush {
     uint64_t counts;   // uint[tiles]: how many media touch each tile; when scattering, the offsets
     uint64_t cursors;  // uint[tiles]: how many are scattered already
     uint64_t pairs;    // uint[]: indices of the media of each tile
+    uint64_t limits;   // float[tiles]: m, what begins behind is hidden by something opaque
     uint count;
 };
 
 // One invocation bins one medium to the tile rows y with y % kBinRowSlices == its slice: bounds the
 // loop of a medium that covers the whole screen.
 BRUME_CONST uint kBinRowSlices = 8u;
+
+// What the sorted keys say of how near a medium can be, to bin.comp.
+BRUME_CONST uint kKeysNothing = 0u;
+BRUME_CONST uint kKeysOfSpheres = 1u;  // bits of the smallest distance
+BRUME_CONST uint kKeysOfBoxes = 2u;    // likewise; perspective only
 
 // Own bindings.
 BRUME_CONST uint kBindingSortedSpheres = 8u;  // SphereData[], written by gather

@@ -145,6 +145,7 @@ void runSimulate(const SimulateArguments& arguments, const Log& log) {
     checkArguments(arguments);
     scene::Effect effect = scene::loadEffect(arguments.effect, log);
     volumes::loadEffectFields(effect);
+    particles::requireReplayable(particles::compileEffect(effect), "simulating");
     const Checkpoint checkpoint(arguments, effect);
     const bench::SimulationRow row = arguments.reference
                                          ? simulateOnCpu(arguments, effect, checkpoint)

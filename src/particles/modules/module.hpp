@@ -6,10 +6,12 @@
 #pragma once
 
 #include <shaders/particles/effect.h>
+#include <shaders/particles/modules/collide_depth.h>
 #include <core/math.hpp>
 #include <particles/fields.hpp>
 #include <scene/effect.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,8 @@ struct ModuleSums {
     shader::EffectParameters* parameters = nullptr;  ///< takes the fields
     const scene::Effect* effect = nullptr;           ///< for its grids
     FieldPacker* fields = nullptr;                   ///< takes the values of grids
+    std::optional<shader::DepthCollider> depthCollider;
+    std::string depthColliderWhere;                  ///< in the effect's file
 };
 
 /// The keys of a module that samples a grid of a VDB file, before its own.
