@@ -44,7 +44,7 @@ Findings read(std::span<const Measurement> rows, Scale scale) {
                           "Ours: `linked_list`, with every layer shaded, sorted and blended exactly."},
                 .header = {"size", "layers", "paper FPS", "paper Mlpx/s", "ours FPS", "ours ms",
                            "ours Mlpx/s", "ours / paper"}};
-    if (scale == Scale::Quick) table.notes.push_back("Ours at a quarter of the size per edge.");
+    if (scale == Scale::Quick) table.notes.emplace_back("Ours at a quarter of the size per edge.");
     for (const PaperRate& rate : kRates) {
         const ivec2 size = scaleSize(rate.size, scale);
         const Row* row = findRow(rows, nameScene(rate), "linked_list", size);

@@ -60,7 +60,7 @@ std::vector<Plan> plan(Scale scale) {
 Findings read(std::span<const Measurement> rows, Scale scale) {
     PaperTable table = makeTable();
     if (scale == Scale::Quick)
-        table.notes.push_back("Ours at 240x135, shadow maps of 64 texels.");
+        table.notes.emplace_back("Ours at 240x135, shadow maps of 64 texels.");
     return {.tables = {makePaperTable(table, rows)}};
 }
 

@@ -53,7 +53,7 @@ std::vector<Plan> plan(Scale scale) {
 Findings read(std::span<const Measurement> rows, Scale scale) {
     PaperTable table = makeTable();
     if (scale == Scale::Quick)
-        table.notes.push_back("Ours at 125x125, shadow maps of 64 texels with one sample each.");
+        table.notes.emplace_back("Ours at 125x125, shadow maps of 64 texels with one sample each.");
     return {.tables = {makePaperTable(table, rows)}};
 }
 
