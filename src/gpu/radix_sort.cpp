@@ -17,11 +17,12 @@ static_assert(shader::kSortDigits == 1u << kDigitBits);
 
 /// Elements that one invocation handles in sequence: a few hundred chunks keep the device busy, and
 /// longer ones write longer runs; measured on lavapipe. Few enough for devices that cap the loop
-/// iterations of an invocation.
+/// iterations of an invocation. Rounded up: one chunk more than wanted is a workgroup more than the
+/// device's threads have between them.
 constexpr std::uint32_t kMinChunk = 256, kMaxChunk = 2048, kWantedChunks = 512;
 
 std::uint32_t chunkSizeOf(std::uint32_t count) {
-    return std::clamp(count / kWantedChunks, kMinChunk, kMaxChunk);
+    return std::clamp((count + kWantedChunks - 1) / kWantedChunks, kMinChunk, kMaxChunk);
 }
 
 std::uint32_t chunkCount(std::uint32_t count) {

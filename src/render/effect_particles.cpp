@@ -119,8 +119,8 @@ void EffectParticles::groupInstances() {
                 capacities.push_back(effect->capacity);
             const scene::EffectInstance& one = effects[i];
             const std::tuple key(
-                one.file,
-                std::array{one.time, one.start, one.timeScale, one.loop, one.prewarm}, capacities);
+                one.file, std::array{one.time, one.start, one.timeScale, one.loop, one.prewarm},
+                capacities);
             const auto found = isKnown ? groups.find(key) : groups.end();
             place.simulation = found == groups.end() ? mRoots.size() : found->second;
             if (found == groups.end()) mRoots.emplace_back();

@@ -126,12 +126,12 @@ struct Renderer::Impl {
         const VkExtent2D extent = composer.scene.extent();
         if (!sceneDepth || sceneDepth.extent().width != extent.width ||
             sceneDepth.extent().height != extent.height)
-            sceneDepth = gpu::Image(composer.device, {.name = "render.scene_depth",
-                                                      .format = kDistanceFormat,
-                                                      .width = extent.width,
-                                                      .height = extent.height,
-                                                      .usage = gpu::kUsageSampled |
-                                                               gpu::kUsageColor});
+            sceneDepth =
+                gpu::Image(composer.device, {.name = "render.scene_depth",
+                                             .format = kDistanceFormat,
+                                             .width = extent.width,
+                                             .height = extent.height,
+                                             .usage = gpu::kUsageSampled | gpu::kUsageColor});
         frame::FrameBuilder frame(pool);
         oit::Inputs inputs = composer.scene.makeInputs();
         inputs.opaqueT = frame.importImage(sceneDepth);
@@ -211,9 +211,8 @@ struct Renderer::Impl {
     /// Whether particles look otherwise from another distance.
     bool isThinned() const {
         const auto& effects = prepared.scene.effects;
-        return std::any_of(effects.begin(), effects.end(), [](const auto& effect) {
-            return effect.effect.thinning.distance > 0;
-        });
+        return std::any_of(effects.begin(), effects.end(),
+                           [](const auto& effect) { return effect.effect.thinning.distance > 0; });
     }
 
     void uploadView(const View& view, bool areMapsKept) {

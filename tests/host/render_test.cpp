@@ -363,7 +363,8 @@ TEST_F(HostTest, VolumeOfAFile_IsReadByTheHost) {
     EXPECT_NE(std::string(brumeVdbLastError()).find("scene.json"), std::string::npos);
 }
 
-// A thousand kilometres away, and then counted from there: the same picture, and the effect goes on.
+// A thousand kilometres away, and then counted from there: the same picture, and the effect goes
+// on.
 TEST_F(HostTest, RebasedScene_ShowsTheSame) {
     const Context context(host().contextInfo());
     Scene scene = makeScene(context, kSpheresScene, "sorted");

@@ -16,8 +16,8 @@ namespace {
 
 struct Fault {
     const char* what;
-    const char* text;      // of the file, from its second line on
-    const char* place;     // line and column
+    const char* text;   // of the file, from its second line on
+    const char* place;  // line and column
     const char* key;
     const char* allowed;
 };

@@ -78,7 +78,9 @@ TEST_F(GpuSpaceTest, MovingInstancesAfterFortyEightHours_HaveTheBitsOfTheTwin) {
     effect.subEmitters.clear();  // so that it jumps there
     effect.capacity = 9000;      // and never runs out
     const EffectInstance one{
-        3, 1, {dmat4(1), {{0, dvec3(0)}, {kHours, dvec3(2e5, 0, 0)}, {kHours + 9, dvec3(2e5, 90, 0)}}}};
+        3,
+        1,
+        {dmat4(1), {{0, dvec3(0)}, {kHours, dvec3(2e5, 0, 0)}, {kHours + 9, dvec3(2e5, 90, 0)}}}};
     GpuSimulation gpu(device(), effect, std::array{one});
     CpuSimulation cpu(effect, one.seed, one.instance, one.placement);
     sSubmitter->submitAndWait(

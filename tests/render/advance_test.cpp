@@ -10,7 +10,8 @@ namespace {
 class Advance : public RenderTest {
   protected:
     render::Renderer makeRenderer(const TestScene& s, const scene::Settings& settings = {}) {
-        return render::Renderer(device(), s, {.method = "linked_list", .settings = settings}, log());
+        return render::Renderer(device(), s, {.method = "linked_list", .settings = settings},
+                                log());
     }
 
     static scene::Effect makeCloud(double rate) {
@@ -84,7 +85,8 @@ TEST_F(Advance, LoopThatBeginsAnew_LeavesNothingBehind) {
     s.addDaylight();
     scene::Effect effect = makeCloud(200);
     effect.emitters[0].lifetime = dvec2(0.5);
-    s.scene.effects.push_back({.file = "/cloud.json", .effect = effect, .medium = s.addMedium(4.0, 0.5)});
+    s.scene.effects.push_back(
+        {.file = "/cloud.json", .effect = effect, .medium = s.addMedium(4.0, 0.5)});
     s.scene.effects[0].loop = 0.6;
     s.scene.effects[0].time = 0.58;
     render::Renderer renderer = makeRenderer(s);

@@ -104,8 +104,7 @@ TEST_F(DepthCollision, ParallelRays_SeeTheSameGround) {
     s.scene.camera.target = dvec3(0);
     const auto spheres = spheresOf(s);
     ASSERT_EQ(spheres.size(), 50u);
-    for (const scene::MediumSphere& sphere : spheres)
-        EXPECT_NEAR(sphere.center.y, -0.78, 3e-3);
+    for (const scene::MediumSphere& sphere : spheres) EXPECT_NEAR(sphere.center.y, -0.78, 3e-3);
 }
 
 TEST_F(DepthCollision, Checkpoints_AreRefusedAtTheModule) {
