@@ -78,13 +78,20 @@ class Differ {
         const Timing a(before, isScaled), b(after, isScaled);
         if (!(a.median > 0) || !(b.median > 0)) return;
         if (numberAt(before, "timeMs", "median") < kLeastMs) return;
-        const double ratio = b.median / a.median, gap = 1 + 0.5 * mThreshold;
+        const double ratio = b.median / a.median;
         const std::string line = fmt::format(
             "{}: {:.2f} times as long{} ({:.3g} ms, was {:.3g} ms)", key, ratio,
             isScaled ? " by the yardstick" : "", numberAt(after, "timeMs", "median"),
             numberAt(before, "timeMs", "median"));
-        if (ratio > 1 + mThreshold && b.lo > a.hi * gap) mDiff.regressions.push_back(line);
-        if (ratio < 1 / (1 + mThreshold) && b.hi * gap < a.lo) mDiff.gains.push_back(line);
+        // A yardstick that was disturbed alone is no evidence: the times as they are must agree.
+        const Timing rawA(before, false), rawB(after, false);
+        if (isSlower(a, b) && isSlower(rawA, rawB)) mDiff.regressions.push_back(line);
+        if (isSlower(b, a) && isSlower(rawB, rawA)) mDiff.gains.push_back(line);
+    }
+
+    bool isSlower(const Timing& before, const Timing& after) const {
+        return after.median > before.median * (1 + mThreshold) &&
+               after.lo > before.hi * (1 + 0.5 * mThreshold);
     }
 
     void compareFigures(const std::string& key, const Json& before, const Json& after) {
