@@ -103,15 +103,30 @@ void addBench(CLI::App& app, Invocation& invocation) {
     command->add_option("--methods", a.methods, "Names of `brume list methods`, or all; name:key=value:... for one with settings")
         ->delimiter(',');
     command->add_option("--shadows", a.shadows, "Measure these shadow stores at points, or all")->delimiter(',');
-    command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");
-    command->add_option("--repeats", a.repeats, "Frames to measure per row")
-        ->check(CLI::Range(1, 100000))
+    command->add_option("--suite", a.suites, "Named suites of rows (see docs/performance.md), or all")
+        ->delimiter(',');
+    command->add_flag("--quick", a.isQuick, "Suites at small sizes: minutes on two cores");
+    command->add_option("--shadow", a.shadow, "Shadow store of all lights, or none");
+    command->add_option("--truth", a.truth, "Scene whose reference errors are against");
+    command->add_option("--compare", a.compare, "OLD.json NEW.json: what changed beyond noise; exit code 1 if for the worse")
+        ->expected(2);
+    command->add_option("--threshold", a.threshold, "Growth of time, error or bytes that counts")
+        ->check(CLI::Range(0.0, 1e3))
         ->capture_default_str();
+    command->add_option("--points", a.points, "Points of --shadows")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command->add_option("--particles", a.particles, "Particles of --scenes simulate")
+        ->check(CLI::Range(1, 10'000'000))
+        ->capture_default_str();
+    command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");
+    command->add_option("--repeats", a.repeats, "Frames to measure per row (default 20, quick suites 5)")
+        ->check(CLI::Range(1, 100000));
     command->add_flag("!--no-error", a.withError, "Do not compare with the reference");
     command->add_option("--set", a.settings, "Setting of the methods that know it, key=value")
         ->allow_extra_args(false);
     command->add_option("--json", a.json, "Write the rows to this file");
-    command->add_option("--report", a.report, "Write a report with images into this folder");
+    command->add_option("--report", a.report, "Write a page with plots and pictures into this folder");
     addDeviceOptions(*command, a.device);
     command->callback(
         [&] { invocation.command = [&](const Log& log) { runBench(invocation.bench, log); }; });
@@ -187,6 +202,8 @@ std::optional<int> parse(int argc, char** argv, Invocation& invocation) {
     addInspect(app, invocation);
     addList(app, invocation);
     addView(app, invocation);
+    for (int i = 0; i < argc; ++i)
+        invocation.bench.command += (i ? " " : "") + bench::quoteForShell(i ? argv[i] : "brume");
     try {
         app.parse(argc, argv);
         return std::nullopt;

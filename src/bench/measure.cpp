@@ -6,6 +6,7 @@
 #include <bench/measure.hpp>
 #include <core/error.hpp>
 #include <oit/method_info.hpp>
+#include <shadows/store_info.hpp>
 #include <sstream>
 
 namespace brume::bench {
@@ -37,7 +38,20 @@ const oit::MethodInfo* findMethod(const std::string& name) {
     return nullptr;
 }
 
+/// Settings of shadow maps go to whatever method asks them.
+bool isShadowSetting(const std::string& key) {
+    const auto knows = [&](std::span<const scene::SettingInfo> settings) {
+        return std::any_of(settings.begin(), settings.end(),
+                           [&](const auto& s) { return key == "shadow." + std::string(s.name); });
+    };
+    const auto stores = shadows::listStores();
+    return knows(shadows::listMapSettings()) ||
+           std::any_of(stores.begin(), stores.end(),
+                       [&](const shadows::StoreInfo& store) { return knows(store.settings); });
+}
+
 bool knowsSetting(const oit::MethodInfo& info, const std::string& key) {
+    if (isShadowSetting(key)) return true;
     if (key == "shuffle") return true;  // the renderer's own: in which order things are submitted
     return std::any_of(info.settings.begin(), info.settings.end(),
                        [&](const oit::SettingInfo& setting) { return setting.name == key; });
@@ -103,16 +117,64 @@ std::vector<Contestant> makeContestants(gpu::Device& device, const render::Prepa
     return contestants;
 }
 
-void renderRounds(std::vector<Contestant>& contestants, const MeasureOptions& options) {
+/// A B C A B C ... with the yardstick before each round. The first warm-up counts fragments.
+/// Returns the yardstick's times.
+std::vector<double> renderRounds(std::vector<std::vector<Contestant>>& races,
+                                 const MeasureOptions& options) {
     const int rounds = options.warmups + options.repeats;
-    for (int round = 0; round < rounds; ++round)
-        for (Contestant& contestant : contestants) {
-            contestant.attempt([&] {
-                render::Result frame = contestant.renderer->renderFrame();
-                if (round >= options.warmups) contestant.samples.add(std::move(frame));
-            });
-            if (options.progress) options.progress((round + 1.0) / rounds);
-        }
+    std::vector<double> yardstickMs;
+    for (int round = 0; round < rounds; ++round) {
+        const bool isWarmup = round < options.warmups;
+        if (options.yardstick && !isWarmup) yardstickMs.push_back(options.yardstick->measure());
+        for (std::vector<Contestant>& contestants : races)
+            for (Contestant& contestant : contestants)
+                contestant.attempt([&] {
+                    contestant.renderer->countFragments(isWarmup && round == 0);
+                    render::Result frame = contestant.renderer->renderFrame();
+                    if (isWarmup && round == 0) contestant.samples.setFragments(frame);
+                    if (!isWarmup) contestant.samples.add(std::move(frame));
+                });
+        if (options.progress) options.progress((round + 1.0) / rounds);
+    }
+    return yardstickMs;
+}
+
+/// The generators of built-in scenes are part of their names; these are what can be chosen.
+std::map<std::string, std::uint64_t> collectSeeds(const scene::Scene& scene,
+                                                  const render::Options& options) {
+    std::map<std::string, std::uint64_t> seeds;
+    for (std::size_t i = 0; i < scene.effects.size(); ++i)
+        seeds[fmt::format("effect {}", i)] = scene.effects[i].seed;
+    if (options.method == "stochastic") seeds["pattern"] = 0;
+    for (const char* key : {"pattern", "shuffle"})
+        if (const auto found = options.settings.find(key); found != options.settings.end())
+            seeds[key] = std::stoull(found->second);
+    return seeds;
+}
+
+std::string makeCommand(const Row& row, const MeasureOptions& options) {
+    std::string command = fmt::format("brume bench --scenes {} --methods {}",
+                                      quoteForShell(row.scene), quoteForShell(row.method));
+    if (!options.shadow.empty()) command += " --shadow " + quoteForShell(options.shadow);
+    command += fmt::format(" --size {}x{}", row.width, row.height);
+    const scene::Settings own = parseMethodSettings(row.method);
+    for (const auto& [key, value] : row.settings)
+        if (!own.contains(key)) command += " --set " + quoteForShell(key + "=" + value);
+    if (options.truth) command += " --truth " + quoteForShell(options.truthName);
+    command += fmt::format(" --repeats {}", options.repeats);
+    return command + (options.withError ? "" : " --no-error");
+}
+
+Row describeContestant(const Contestant& contestant, const std::string& sceneName,
+                       const scene::Scene& scene, const MeasureOptions& options,
+                       const gpu::DeviceInfo& device) {
+    Row row = describeRun(sceneName, scene, contestant.options, device);
+    row.method = contestant.word;
+    row.suite = options.suite;
+    row.failure = contestant.failure;
+    row.seeds = collectSeeds(scene, contestant.options);
+    row.command = makeCommand(row, options);
+    return row;
 }
 
 /// All contestants simulate the same particles, so anyone's will do.
@@ -128,10 +190,44 @@ reference::Result renderCommonReference(const render::PreparedScene& scene,
     return renderReference(scene, effects, progress);
 }
 
+/// Rows of one scene, once its frames are rendered.
+void summariseRace(gpu::Device& device, const Entrant& entrant,
+                   const std::vector<Contestant>& contestants,
+                   const std::vector<double>& yardstickMs, std::vector<Measurement>& measurements) {
+    const MeasureOptions& options = entrant.options;
+    const bool anyFrame = std::any_of(contestants.begin(), contestants.end(),
+                                      [](const Contestant& c) { return !c.samples.isEmpty(); });
+    reference::Result exact;
+    if (options.withError && anyFrame)
+        exact = renderCommonReference(options.truth ? *options.truth : entrant.scene, contestants,
+                                      options.progress);
+    const auto reference = std::make_shared<const Image>(exact.image);
+    for (const Contestant& contestant : contestants) {
+        Measurement& m = measurements.emplace_back();
+        m.row = describeContestant(contestant, entrant.sceneName, entrant.scene.scene, options,
+                                   device.info());
+        if (!contestant.failure.empty()) continue;
+        contestant.samples.summariseInto(m.row);
+        if (options.yardstick) addRoofs(options.yardstick->machine(), m.row);
+        if (!yardstickMs.empty()) m.row.yardstick = summarise(yardstickMs);
+        if (options.layerCount > 0)
+            m.row.layerPixelsPerSecond =
+                1e3 * options.layerCount * m.row.width * m.row.height / m.row.time.median;
+        if (options.keepImages) m.image = contestant.samples.last().image;
+        if (!options.withError) continue;
+        Comparison comparison = compareWithReference(contestant.samples.last(), exact);
+        m.row.error = comparison.metrics;
+        if (!options.keepImages) continue;
+        m.absolute = std::move(comparison.absolute);
+        m.reference = reference;
+    }
+}
+
 }  // namespace
 
 void FrameSamples::add(render::Result frame) {
     mTimesMs.push_back(frame.timeMs);
+    mWallMs.push_back(frame.wallMs);
     mPassTimesMs.resize(std::max(mPassTimesMs.size(), frame.passes.size()));
     for (std::size_t i = 0; i < frame.passes.size(); ++i)
         mPassTimesMs[i].push_back(frame.passes[i].timeMs);
@@ -141,9 +237,16 @@ void FrameSamples::add(render::Result frame) {
 
 void FrameSamples::summariseInto(Row& row) const {
     row.time = summarise(mTimesMs);
-    row.passes = mLast.passes;
-    for (std::size_t i = 0; i < row.passes.size(); ++i)
-        row.passes[i].timeMs = percentile(mPassTimesMs[i], 0.5);
+    row.wall = summarise(mWallMs);
+    for (std::size_t i = 0; i < mLast.passes.size(); ++i) {
+        const render::PassTime& pass = mLast.passes[i];
+        PassRow& made =
+            row.passes.emplace_back(PassRow{pass.name, summarise(mPassTimesMs[i]), pass.bytes});
+        const auto counted =
+            std::find_if(mCounted.begin(), mCounted.end(),
+                         [&](const render::PassTime& other) { return other.name == pass.name; });
+        if (counted != mCounted.end()) made.fragments = counted->fragments;
+    }
     row.bytes = mLast.bytes;
     row.counters = mLast.counters;
     row.errorBound = mLast.errorBound;
@@ -165,6 +268,13 @@ Row describeRun(const std::string& sceneName, const scene::Scene& scene,
     row.commit = commit();
     return row;
 }
+
+void addRoofs(const Machine& machine, Row& row) {
+    for (PassRow& pass : row.passes)
+        pass.roofMs = computeRoofMs(machine, pass.bytes, pass.fragments);
+}
+
+scene::Settings parseMethodSettings(const std::string& word) { return parseChoice(word).settings; }
 
 std::string describeShadows(const scene::Scene& scene) {
     std::vector<std::string> names;
@@ -198,33 +308,26 @@ Comparison compareWithReference(const render::Result& frame, const reference::Re
                          findDisagreement(frame.triangles, exact.triangles));
 }
 
+std::vector<Measurement> measureScenes(gpu::Device& device, const std::deque<Entrant>& entrants,
+                                       const Log& log) {
+    std::vector<std::vector<Contestant>> races;
+    for (const Entrant& entrant : entrants) {
+        checkOptions(entrant.options);
+        races.push_back(makeContestants(device, entrant.scene, entrant.options, log));
+    }
+    const std::vector<double> yardstickMs = renderRounds(races, entrants.front().options);
+    std::vector<Measurement> measurements;
+    for (std::size_t i = 0; i < races.size(); ++i)
+        summariseRace(device, entrants[i], races[i], yardstickMs, measurements);
+    return measurements;
+}
+
 std::vector<Measurement> measureScene(gpu::Device& device, const std::string& sceneName,
                                       const render::PreparedScene& scene,
                                       const MeasureOptions& options, const Log& log) {
-    checkOptions(options);
-    std::vector<Contestant> contestants = makeContestants(device, scene, options, log);
-    renderRounds(contestants, options);
-    const bool anyFrame = std::any_of(contestants.begin(), contestants.end(),
-                                      [](const Contestant& c) { return !c.samples.isEmpty(); });
-    reference::Result exact;
-    if (options.withError && anyFrame)
-        exact = renderCommonReference(scene, contestants, options.progress);
-
-    std::vector<Measurement> measurements;
-    for (const Contestant& contestant : contestants) {
-        Measurement& m = measurements.emplace_back();
-        m.row = describeRun(sceneName, scene.scene, contestant.options, device.info());
-        m.row.method = contestant.word;
-        m.row.failure = contestant.failure;
-        if (!contestant.failure.empty()) continue;
-        contestant.samples.summariseInto(m.row);
-        m.image = contestant.samples.last().image;
-        if (!options.withError) continue;
-        Comparison comparison = compareWithReference(contestant.samples.last(), exact);
-        m.row.error = comparison.metrics;
-        m.absolute = std::move(comparison.absolute);
-    }
-    return measurements;
+    std::deque<Entrant> entrants;
+    entrants.push_back({sceneName, scene, options});
+    return measureScenes(device, entrants, log);
 }
 
 }  // namespace brume::bench

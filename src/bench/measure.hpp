@@ -2,9 +2,12 @@
 // Rendering a scene with several methods and saying what each cost and how wrong it was.
 #pragma once
 
+#include <bench/machine.hpp>
 #include <bench/row.hpp>
 #include <core/log.hpp>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <gpu/device.hpp>
 #include <reference/reference.hpp>
 #include <render/renderer.hpp>
@@ -25,13 +28,17 @@ class FrameSamples {
     /// Writes time, passes, bytes, image hash and counters (with `distinctImages`) into the row.
     void summariseInto(Row& row) const;
 
+    /// Fragments per pass, from a frame that counted them and is not a sample itself.
+    void setFragments(const render::Result& counted) { mCounted = counted.passes; }
+
     const render::Result& last() const { return mLast; }
     bool isEmpty() const { return mTimesMs.empty(); }
 
   private:
-    std::vector<double> mTimesMs;
+    std::vector<double> mTimesMs, mWallMs;
     std::vector<std::vector<double>> mPassTimesMs;  ///< per pass, per frame
     std::set<std::uint64_t> mHashes;  ///< of the images: one, where a method is deterministic
+    std::vector<render::PassTime> mCounted;
     render::Result mLast;
 };
 
@@ -61,6 +68,14 @@ struct MeasureOptions {
     int repeats = 20;
     int warmups = 1;
     bool withError = true;  ///< compare with the reference
+    /// What errors are against, with its name for the rows; null: the scene itself.
+    std::shared_ptr<const render::PreparedScene> truth;
+    std::string truthName;
+    bool keepImages = true;
+    std::string suite;     ///< for the rows
+    std::string shadow;    ///< the store that overrideShadows() was given, for the rows; or empty
+    int layerCount = 0;    ///< full-screen layers, for layer-pixels per second
+    Yardstick* yardstick = nullptr;  ///< measured in every round, if given; rows get roofs
     ProgressCallback progress;
 };
 
@@ -69,7 +84,26 @@ struct Measurement {
     Row row;
     Image image;                  ///< empty after a failure
     std::vector<float> absolute;  ///< per pixel error, empty unless compared
+    std::shared_ptr<const Image> reference;  ///< of the scene, shared; null unless compared
 };
+
+/// Least time of each pass, by the machine's rates.
+void addRoofs(const Machine& machine, Row& row);
+
+/// Settings that a word of MeasureOptions::methods holds ("stochastic:samples=16").
+scene::Settings parseMethodSettings(const std::string& word);
+
+/// A scene with its methods, in a race with others.
+struct Entrant {
+    std::string sceneName;
+    render::PreparedScene scene;
+    MeasureOptions options;
+};
+
+/// Renders every scene with its methods, all of them in turn, frame by frame; rounds, yardstick and
+/// progress are those of the first entrant. Else as measureScene().
+std::vector<Measurement> measureScenes(gpu::Device& device, const std::deque<Entrant>& entrants,
+                                       const Log& log);
 
 /// Renders the scene with every method, taking turns frame by frame so that drift of clocks and
 /// load hits all alike. A method that fails gives a row that says why. Throws an input Error for an

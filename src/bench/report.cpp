@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bench/pareto.hpp>
+#include <bench/report.hpp>
+#include <core/error.hpp>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bench/pareto.hpp>
-#include <bench/report.hpp>
-#include <core/error.hpp>
-#include <core/image_io.hpp>
 #include <fstream>
 
 namespace brume::bench {
 namespace {
-
-using Cells = std::vector<std::string>;
-
-Cells makeHeader() {
-    return {"scene",    "method", "size",   "ms",   "p05..p95", "Mlayer-px/s",
-            "bytes/px", "lists",  "stored", "rmse", "max",      "flip"};
-}
 
 std::uint64_t findOr0(const std::map<std::string, std::uint64_t>& counts, const std::string& name) {
     const auto found = counts.find(name);
@@ -25,15 +18,16 @@ std::uint64_t findOr0(const std::map<std::string, std::uint64_t>& counts, const 
 }
 
 Cells makeCells(const Row& row) {
-    Cells cells = {row.scene, row.method, fmt::format("{}x{}", row.width, row.height)};
+    Cells cells = {row.scene, row.method, row.shadow,
+                   fmt::format("{}x{}", row.width, row.height)};
     if (!row.failure.empty()) {
         cells.push_back("failed");
-        cells.resize(makeHeader().size(), "-");
         return cells;
     }
     const double pixels = static_cast<double>(row.width) * row.height;
     cells.push_back(fmt::format("{:.2f}", row.time.median));
     cells.push_back(fmt::format("{:.2f}..{:.2f}", row.time.p05, row.time.p95));
+    cells.push_back(fmt::format("{:.2f}", row.wall.median));
     cells.push_back(
         row.layerPixelsPerSecond ? fmt::format("{:.1f}", *row.layerPixelsPerSecond * 1e-6) : "-");
     cells.push_back(
@@ -41,85 +35,69 @@ Cells makeCells(const Row& row) {
     cells.push_back(
         fmt::format("{:.1f} MB", static_cast<double>(findOr0(row.bytes, "lists")) * 1e-6));
     cells.push_back(fmt::format("{}", findOr0(row.counters, "stored")));
-    for (double ErrorMetrics::*figure :
-         {&ErrorMetrics::rmse, &ErrorMetrics::max, &ErrorMetrics::flip})
+    for (double ErrorMetrics::*figure : {&ErrorMetrics::rmse, &ErrorMetrics::max, &ErrorMetrics::bias,
+                                         &ErrorMetrics::p999, &ErrorMetrics::flip})
         cells.push_back(row.error ? fmt::format("{:.2e}", (*row.error).*figure) : "-");
+    cells.push_back(row.error ? fmt::format("{:.1f}", row.error->psnr) : "-");
+    cells.push_back(row.error ? fmt::format("{}", row.error->nonFinite) : "-");
     return cells;
-}
-
-std::string formatLine(const Cells& cells, const std::vector<std::size_t>& widths) {
-    std::string line = "|";
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        line += i < 2 ? fmt::format(" {:<{}} |", cells[i], widths[i])
-                      : fmt::format(" {:>{}} |", cells[i], widths[i]);
-    return line + "\n";
-}
-
-/// "layers_2_800x600.linked_list", with nothing that would leave the folder.
-std::string makeFileStem(const Row& row) {
-    std::string stem = row.scene + "." + row.method;
-    std::replace_if(
-        stem.begin(), stem.end(),
-        [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_'; }, '_');
-    return stem;
 }
 
 }  // namespace
 
-std::string formatTable(std::span<const Measurement> measurements) {
-    std::vector<Cells> lines = {makeHeader()};
-    for (const Measurement& m : measurements) lines.push_back(makeCells(m.row));
-    std::vector<std::size_t> widths(lines[0].size());
-    for (const Cells& cells : lines)
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            widths[i] = std::max(widths[i], cells[i].size());
-    std::string table = formatLine(lines[0], widths) + "|";
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-        const std::string dashes(widths[i], '-');
-        table += i < 2 ? fmt::format(":{}-|", dashes) : fmt::format("-{}:|", dashes);
-    }
-    table += "\n";
-    for (std::size_t i = 1; i < lines.size(); ++i) table += formatLine(lines[i], widths);
+Table makeRowTable(std::span<const Measurement> measurements) {
+    Table table{.title = "Every row",
+                .header = {"scene", "method", "shadow", "size", "ms", "p05..p95", "wall ms",
+                           "Mlayer-px/s", "bytes/px", "lists", "stored", "rmse", "max", "bias",
+                           "p99.9", "flip", "psnr", "not finite"},
+                .textColumns = 2};
+    for (const Measurement& m : measurements) table.rows.push_back(makeCells(m.row));
     return table;
 }
 
-void writeReport(const std::filesystem::path& folder, std::span<const Measurement> measurements) {
+Table makePassTable(std::span<const Measurement> measurements) {
+    Table table{.title = "Every pass beside its roofline",
+                .notes = {"Roof: the longer of the times that its bytes take at the measured bandwidth "
+                          "and its fragments at the measured fill rate. Bytes: all that it declares to "
+                          "read and to write, once each; fragments: shader invocations, of which "
+                          "software devices count whole blocks; a pass that touches part of its bytes may stay "
+                          "below the roof, one that computes much is far above it."},
+                .header = {"scene", "method", "pass", "ms", "p05..p95", "MB", "fragments", "roof ms",
+                           "ms / roof"},
+                .textColumns = 3};
+    for (const Measurement& m : measurements)
+        for (const PassRow& pass : m.row.passes)
+            table.rows.push_back(
+                {m.row.scene, m.row.method, pass.name, fmt::format("{:.3f}", pass.time.median),
+                 fmt::format("{:.3f}..{:.3f}", pass.time.p05, pass.time.p95),
+                 fmt::format("{:.2f}", 1e-6 * static_cast<double>(pass.bytes)),
+                 std::to_string(pass.fragments), fmt::format("{:.3f}", pass.roofMs),
+                 pass.roofMs > 0 ? fmt::format("{:.1f}", pass.time.median / pass.roofMs) : "-"});
+    return table;
+}
+
+std::string formatTable(std::span<const Measurement> measurements) {
+    return formatCells(makeRowTable(measurements));
+}
+
+void writeReport(const std::filesystem::path& folder, const Results& results) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw failure("writing report", folder.string(), error.message());
-    std::string text = "# Benchmark\n\n", title = "Benchmark";
-    if (!measurements.empty()) {
-        const Row& first = measurements.front().row;
-        title = fmt::format("Brume {} ({}) on {} ({})", version(), first.commit, first.device,
-                            first.driver);
-        text += title + ". Times are medians.\n\n";
-    }
-    const std::set<std::string> dominated = findDominated(measurements);
+    std::string text = fmt::format("# Benchmark\n\n{}.\n\nTimes are medians. Made by\n\n    {}\n\n",
+                                   describeMachine(results.machine), results.command);
+    const std::set<std::string> dominated = findDominated(results.frames);
     if (!dominated.empty())
         text += fmt::format("Beaten in both time and rmse on every scene here: {}.\n\n",
                             fmt::join(dominated, ", "));
-    text += formatTable(measurements) + "\n";
-    std::vector<Row> rows;
-    for (const Measurement& m : measurements) {
-        rows.push_back(m.row);
-        const std::string stem = makeFileStem(m.row);
-        text += fmt::format("## {} by {}\n\n", m.row.scene, m.row.method);
-        if (!m.row.failure.empty()) text += m.row.failure + "\n\n";
-        if (!m.image.isEmpty()) {
-            writeImage(folder / (stem + ".png"), m.image);
-            text += fmt::format("![image]({}.png)\n", stem);
-        }
-        if (!m.absolute.empty()) {
-            writeImage(folder / (stem + ".error.png"),
-                       paintErrors(m.absolute, m.image.width, m.image.height));
-            text += fmt::format("![error, black 1e-6 to white 1]({}.error.png)\n", stem);
-        }
-        text += "\n";
+    for (const Findings& findings : results.findings) {
+        text += fmt::format("## {}: {}\n\n", findings.suite, findings.summary);
+        for (const Table& table : findings.tables) text += formatMarkdown(table) + "\n";
     }
+    text += formatMarkdown(makeRowTable(results.frames));
     writeTextFile(folder / "report.md", text);
-    writeTextFile(folder / "report.html",
-                  makeParetoPage(measurements, title, formatTable(measurements)));
-    writeTextFile(folder / "rows.json", toJson(rows, "rows"));
+    writeTextFile(folder / "report.html", makePage(results));
+    writeTextFile(folder / "rows.json", toJson(results));
 }
 
 void writeTextFile(const std::filesystem::path& file, const std::string& text) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <bench/row.hpp>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "brume_commit.hpp"
@@ -20,6 +21,15 @@ Json errorJson(const ErrorMetrics& e) {
 Json timeJson(const TimeSummary& time) {
     return {
         {"median", time.median}, {"p05", time.p05}, {"p95", time.p95}, {"repeats", time.repeats}};
+}
+
+Json passJson(const PassRow& pass) {
+    Json json = {{"name", pass.name}, {"timeMs", pass.time.median}};
+    if (pass.time.repeats > 1) json["p05"] = pass.time.p05, json["p95"] = pass.time.p95;
+    json["bytes"] = pass.bytes;
+    if (pass.fragments > 0) json["fragments"] = pass.fragments;
+    if (pass.roofMs > 0) json["roofMs"] = pass.roofMs;
+    return json;
 }
 
 Json bytesJson(const Row& row) {
@@ -43,14 +53,19 @@ Json rowJson(const Row& row) {
                  {"driver", row.driver},
                  {"commit", row.commit}};
     for (const auto& [key, value] : row.settings) json["settings"][key] = value;
+    if (!row.suite.empty()) json["suite"] = row.suite;
+    if (!row.command.empty()) json["command"] = row.command;
+    if (!row.seeds.empty()) json["seeds"] = row.seeds;
     if (!row.failure.empty()) {
         json["failure"] = row.failure;
         return json;
     }
     json["timeMs"] = timeJson(row.time);
+    if (row.wall.median > 0) json["wallMs"] = timeJson(row.wall);
+    if (row.yardstick.repeats > 0) json["yardstickMs"] = timeJson(row.yardstick);
     json["passes"] = Json::array();
-    for (const auto& pass : row.passes)
-        json["passes"].push_back({{"name", pass.name}, {"timeMs", pass.timeMs}});
+    for (const PassRow& pass : row.passes)
+        json["passes"].push_back(passJson(pass));
     json["bytes"] = bytesJson(row);
     json["counters"] = Json::object();
     for (const auto& [name, count] : row.counters) json["counters"][name] = count;
@@ -67,6 +82,8 @@ std::string dump(const Json& json) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json describe(const Row& row) { return rowJson(row); }
 
 std::string toJson(const Row& row) { return dump(rowJson(row)); }
 
@@ -94,6 +111,16 @@ std::string toJson(std::span<const Row> rows, const std::string& key) {
     Json json = {{key, Json::array()}};
     for (const Row& row : rows) json[key].push_back(rowJson(row));
     return dump(json);
+}
+
+std::string quoteForShell(const std::string& word) {
+    const auto isPlain = [](unsigned char c) {
+        return std::isalnum(c) || std::string_view("_./:=,+-%@").find(char(c)) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), isPlain)) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
 }
 
 std::string version() { return BRUME_VERSION; }

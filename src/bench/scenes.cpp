@@ -3,13 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
+#include <bench/hard_scenes.hpp>
+#include <bench/prepare.hpp>
+#include <bench/scene_builder.hpp>
 #include <bench/scene_parts.hpp>
+#include <bench/suites/needs.hpp>
+#include <bench/volume_scenes.hpp>
 #include <bench/scenes.hpp>
 
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 21> kScenes = {{
+constexpr std::array<SceneInfo, 26> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -30,7 +36,12 @@ constexpr std::array<SceneInfo, 21> kScenes = {{
     {"smoke_and_glass", "smoke through and behind panes and solid glass (figure 12)"},
     {"plume_100k", "a smoke plume of 100 000 particles"},
     {"engine", "many close shells of partial coverage (figure 9)"},
+    {"fur", "6 000 hairs of half coverage"},
     {"mixed", "smoke, foliage cards, ribbons, window panes and sheer cloth"},
+    {"mesh_spheres", "1 000 half-transparent spheres of triangles, 10 x 10 x 10 at 1280x720"},
+    {"hard", "inputs at which renderers of transparency break; hard_<name> for one"},
+    {"boxes_30", "a cloud of voxels as boxes of tolerance 0.030; boxes_0: as voxels"},
+    {"needs", "pairs of scenes that differ in one feature; need_<name> for one"},
 }};
 
 constexpr std::array<ivec2, 2> kLayerSizes = {{{800, 600}, {1024, 768}}};
@@ -53,14 +64,37 @@ NamedScene makeNamedLayers(int layerCount, ivec2 size) {
             makeLayers(layerCount, size.x, size.y), layerCount};
 }
 
-std::vector<NamedScene> makeLayerScenes(std::string_view name) {
+std::vector<NamedScene> makePaperLayers() {
     std::vector<NamedScene> scenes;
     for (const ivec2 size : kLayerSizes)
-        for (int layerCount = 2; layerCount <= 16; layerCount += 2) {
-            NamedScene scene = makeNamedLayers(layerCount, size);
-            if (name == "layers" || name == scene.name) scenes.push_back(std::move(scene));
-        }
+        for (int layerCount = 2; layerCount <= 16; layerCount += 2)
+            scenes.push_back(makeNamedLayers(layerCount, size));
     return scenes;
+}
+
+/// 500, 10k, 1m; 0 for anything else.
+int parseCount(const std::string& digits, const std::string& unit) {
+    if (digits.size() > 7) return 0;
+    const int scale = unit == "k" ? 1'000 : unit == "m" ? 1'000'000 : 1;
+    const long long count = std::stoll(digits) * scale;
+    return count <= 4'000'000 ? static_cast<int>(count) : 0;
+}
+
+/// Scenes whose names hold their numbers.
+std::optional<NamedScene> makeNumbered(const std::string& name) {
+    static const std::regex kLayers("layers_(\\d{1,3})_(\\d{1,5})x(\\d{1,5})");
+    static const std::regex kSpheres("(spheres|mixed)_(\\d+)([km]?)_(\\d{1,3})");
+    std::smatch part;
+    if (std::regex_match(name, part, kLayers)) {
+        const ivec2 size(std::stoi(part[2]), std::stoi(part[3]));
+        const int count = std::stoi(part[1]);
+        if (count < 1 || count > 256 || size.x < 1 || size.y < 1) return std::nullopt;
+        return makeNamedLayers(count, size);
+    }
+    if (!std::regex_match(name, part, kSpheres)) return std::nullopt;
+    const int count = parseCount(part[2], part[3]), radius = std::stoi(part[4]);
+    if (count < 1 || radius < 1) return std::nullopt;
+    return NamedScene{name, makeSpheres(count, radius, part[1] == "mixed" ? 2 : 1)};
 }
 
 }  // namespace
@@ -68,21 +102,25 @@ std::vector<NamedScene> makeLayerScenes(std::string_view name) {
 std::span<const SceneInfo> listScenes() { return kScenes; }
 
 std::vector<NamedScene> makeScenes(std::string_view name) {
-    if (name == "spheres_1k_16") return {{std::string(name), makeSpheres(1'000, 16)}};
-    if (name == "spheres_1k_48") return {{std::string(name), makeSpheres(1'000, 48)}};
-    if (name == "spheres_10k_15") return {{std::string(name), makeSpheres(10'000, 15)}};
-    if (name == "spheres_10k_64") return {{std::string(name), makeSpheres(10'000, 64)}};
-    if (name == "spheres_100k_16") return {{std::string(name), makeSpheres(100'000, 16)}};
-    if (name == "spheres_10k_4") return {{std::string(name), makeSpheres(10'000, 4)}};
-    if (name == "spheres_100k_4") return {{std::string(name), makeSpheres(100'000, 4)}};
-    if (name == "spheres_1m_4") return {{std::string(name), makeSpheres(1'000'000, 4)}};
-    if (name == "mixed_10k_15") return {{std::string(name), makeSpheres(10'000, 15, 2)}};
-    if (name == "mixed_10k_64") return {{std::string(name), makeSpheres(10'000, 64, 2)}};
+    if (name == "layers") return makePaperLayers();
     if (name == "intervals_8gib") return {{std::string(name), makeNestedSpheres(1'170)}};
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
+    if (name == "mesh_spheres") return {{std::string(name), makeMeshSpheres()}};
     if (auto scene = makeTransparencyScene(name)) return {{std::string(name), *std::move(scene)}};
-    return makeLayerScenes(name);
+    if (auto scene = makeNumbered(std::string(name))) return {*std::move(scene)};
+    if (auto scene = makeBoxesScene(std::string(name))) return {*std::move(scene)};
+    if (auto scenes = makeHardScenes(name); !scenes.empty()) return scenes;
+    return makeNeedScenes(name);
+}
+
+render::PreparedScene prepareNamed(const NamedScene& named, const Log& log) {
+    render::PreparedScene prepared = prepareScene(named.scene, log);
+    for (const auto& [volume, grid] : named.volumes) {
+        prepared.scene.volumes.push_back(volume);
+        prepared.volumes.push_back(grid);
+    }
+    return prepared;
 }
 
 scene::Scene makeLayers(int layerCount, int width, int height) {
@@ -102,8 +140,10 @@ scene::Scene makeLayers(int layerCount, int width, int height) {
         const double hue = 2 * kPi * i / layerCount;
         material.reflected = 0.5 + 0.4 * dvec3(std::cos(hue), std::cos(hue - 2), std::cos(hue + 2));
         scene.materials.push_back(material);
-        // Every fifth distance of a ring of 17: neither front to back nor back to front.
-        const float depth = 1.f + 0.1f * static_cast<float>((5 * i + 3) % 17);
+        // Every fifth distance of a ring: neither front to back nor back to front.
+        const int ring = layerCount <= 16 ? 17 : 257;
+        const float depth =
+            1.f + 1.7f * static_cast<float>((5 * i + 3) % ring) / static_cast<float>(ring);
         scene.meshes.push_back(makeScreenQuad(depth, static_cast<std::uint32_t>(i)));
     }
     return scene;
@@ -207,6 +247,20 @@ std::shared_ptr<const scene::Texture> makeSoftDisc(int size) {
 }
 
 }  // namespace
+
+scene::Scene makeMeshSpheres() {
+    Builder b(dvec3(0, 0, 17), dvec3(0), 40);
+    b.scene.image = {1280, 720, 1};
+    b.scene.background.radiance = dvec3(0.1, 0.15, 0.25);
+    addDaylight(b.scene);
+    for (int i = 0; i < 1000; ++i) {
+        const dvec3 cell(i % 10, i / 10 % 10, i / 100);
+        if (i < 10) b.addThin(0.5, dvec3(0), 0.2 + 0.6 * dvec3(i % 3 == 0, i % 3 == 1, 0.1 * i));
+        b.addMesh(scene::makeSphere(0.42, 12), static_cast<std::uint32_t>((i * 7 + i / 100) % 10),
+                  place(cell - 4.5));
+    }
+    return b.scene;
+}
 
 scene::Scene makeShadowPanes() {
     scene::Scene scene = makeSunlitScene();

@@ -24,6 +24,7 @@ constexpr double kLeastShadow = 1e-3;
 /// Share of the casters' box that is left out at each of its sides: panes end there, and the hard
 /// edge of a pane is a matter of the map's resolution, not of the store.
 constexpr double kMargin = 0.06;
+constexpr std::uint64_t kPointSeed = 7;
 
 class Random {
   public:
@@ -32,7 +33,7 @@ class Random {
     }
 
   private:
-    std::mt19937_64 mEngine{7};
+    std::mt19937_64 mEngine{kPointSeed};
 };
 
 /// Points in the casters' box, and the same pushed along the light behind all of them.
@@ -141,16 +142,25 @@ bool knows(std::span<const scene::SettingInfo> settings, const std::string& key)
                        [&](const scene::SettingInfo& info) { return info.name == key; });
 }
 
+/// "shadow.filter" as in every other command, or "filter".
+std::string dropPrefix(const std::string& key) {
+    const std::string prefix = "shadow.";
+    return key.starts_with(prefix) ? key.substr(prefix.size()) : key;
+}
+
 scene::Settings settingsFor(const shadows::StoreInfo& store, const scene::Settings& all) {
     scene::Settings settings;
-    for (const auto& [key, value] : all)
+    for (const auto& [word, value] : all) {
+        const std::string key = dropPrefix(word);
         if (knows(store.settings, key) || knows(shadows::listMapSettings(), key))
             settings["shadow." + key] = value;
+    }
     return settings;
 }
 
 void checkSettings(const ShadowMeasureOptions& options) {
-    for (const auto& [key, value] : options.settings) {
+    for (const auto& [word, value] : options.settings) {
+        const std::string key = dropPrefix(word);
         bool isKnown = knows(shadows::listMapSettings(), key);
         for (const std::string& store : options.stores)
             isKnown = isKnown || knows(findStore(store).settings, key);
@@ -189,24 +199,60 @@ std::vector<dvec3> averageAll(const ExactShadows& exact, std::span<const dvec3> 
     return averages;
 }
 
-void measureStore(gpu::Device& device, render::PreparedScene& scene, const ExactShadows& exact,
-                  const Points& points, const ShadowMeasureOptions& options, const Log& log,
-                  ShadowRow& row) {
-    scene.scene.lights[0].shadow = row.store;
-    row.settings = settingsFor(findStore(row.store), options.settings);
-    const render::Renderer renderer(device, scene,
-                                    {.method = "unordered", .settings = row.settings}, log);
-    std::vector<dvec3> all = points.inside;
-    all.insert(all.end(), points.behind.begin(), points.behind.end());
-    std::vector<double> build, sample;
-    render::ShadowSamples samples = renderer.probeShadows(0, all);  // warm-up
-    for (int i = 0; i < options.repeats; ++i) {
-        samples = renderer.probeShadows(0, all);
-        build.push_back(samples.buildMs);
-        sample.push_back(samples.sampleMs);
+/// One store in the race.
+struct Contestant {
+    ShadowRow row;
+    std::unique_ptr<render::Renderer> renderer;
+    render::ShadowSamples samples;
+    std::vector<double> buildMs, sampleMs;
+
+    /// Runs `step`; a failure takes the store out, with its memory.
+    template <typename Step>
+    void attempt(const Step& step) {
+        if (!row.failure.empty()) return;
+        try {
+            step();
+        } catch (const Error& error) {
+            row.failure = error.what();
+            renderer.reset();
+        }
     }
-    row.buildMs = percentile(build, 0.5);
-    row.sampleNs = 1e6 * percentile(sample, 0.5) / static_cast<double>(all.size());
+};
+
+std::string makeCommand(const ShadowRow& row, const ShadowMeasureOptions& options) {
+    std::string command = fmt::format("brume bench --scenes {} --shadows {}",
+                                      quoteForShell(row.scene), row.store);
+    for (const auto& [key, value] : row.settings)
+        command += " --set " + quoteForShell(key + "=" + value);
+    return command + fmt::format(" --points {} --repeats {}", options.points, options.repeats);
+}
+
+Contestant makeContestant(gpu::Device& device, render::PreparedScene& scene,
+                          const std::string& sceneName, const std::string& store,
+                          const ShadowMeasureOptions& options, const Log& log) {
+    Contestant contestant;
+    ShadowRow& row = contestant.row;
+    row.scene = sceneName;
+    row.store = store;
+    row.device = device.info().name;
+    row.driver = device.info().driver;
+    row.commit = commit();
+    row.settings = settingsFor(findStore(store), options.settings);
+    row.command = makeCommand(row, options);
+    scene.scene.lights[0].shadow = store;
+    contestant.attempt([&] {
+        contestant.renderer = std::make_unique<render::Renderer>(
+            device, scene, render::Options{.method = "unordered", .settings = row.settings}, log);
+    });
+    return contestant;
+}
+
+void summariseStore(Contestant& contestant, const ExactShadows& exact, const Points& points) {
+    ShadowRow& row = contestant.row;
+    const render::ShadowSamples& samples = contestant.samples;
+    row.build = summarise(contestant.buildMs);
+    row.sampleNs = 1e6 * percentile(contestant.sampleMs, 0.5) /
+                   static_cast<double>(points.inside.size() + points.behind.size());
     row.bytesPerTexel = samples.bytesPerTexel;
     const std::span<const vec3> values(samples.values);
     const render::ShadowSamples point{};
@@ -215,6 +261,23 @@ void measureStore(gpu::Device& device, render::PreparedScene& scene, const Exact
     row.behind =
         compare(values.subspan(points.inside.size()), points.behind,
                 averageAll(exact, points.behind, point), averageAll(exact, points.behind, samples));
+}
+
+/// A B C A B C ...; the first round warms up.
+void probeRounds(std::vector<Contestant>& contestants, const Points& points,
+                 const ShadowMeasureOptions& options) {
+    std::vector<dvec3> all = points.inside;
+    all.insert(all.end(), points.behind.begin(), points.behind.end());
+    for (int round = 0; round <= options.repeats; ++round) {
+        for (Contestant& contestant : contestants)
+            contestant.attempt([&] {
+                contestant.samples = contestant.renderer->probeShadows(0, all);
+                if (round == 0) return;
+                contestant.buildMs.push_back(contestant.samples.buildMs);
+                contestant.sampleMs.push_back(contestant.samples.sampleMs);
+            });
+        if (options.progress) options.progress((round + 1.0) / (options.repeats + 1));
+    }
 }
 
 nlohmann::json describe(const ShadowError& e) {
@@ -237,63 +300,67 @@ std::vector<ShadowRow> measureShadows(gpu::Device& device, const std::string& sc
         throw inputError(kDoing, sceneName, "nothing translucent, allowed are media and glass");
     const ExactShadows exact(scene, scene.scene.lights[0], bounds);
     const Points points = exact.makePoints(options.points);
+    std::vector<Contestant> contestants;
+    for (const std::string& store : options.stores)
+        contestants.push_back(makeContestant(device, scene, sceneName, store, options, log));
+    probeRounds(contestants, points, options);
     std::vector<ShadowRow> rows;
-    for (const std::string& store : options.stores) {
-        ShadowRow& row = rows.emplace_back();
-        row.scene = sceneName;
-        row.store = store;
-        row.device = device.info().name;
-        row.driver = device.info().driver;
-        row.commit = commit();
-        try {
-            measureStore(device, scene, exact, points, options, log, row);
-        } catch (const Error& error) {
-            row.failure = error.what();
-        }
-        if (options.progress)
-            options.progress(static_cast<double>(rows.size()) /
-                             static_cast<double>(options.stores.size()));
+    for (Contestant& contestant : contestants) {
+        contestant.attempt([&] { summariseStore(contestant, exact, points); });
+        rows.push_back(std::move(contestant.row));
     }
     return rows;
 }
 
-std::string formatShadowTable(std::span<const ShadowRow> rows) {
-    std::string table =
-        "| scene | store | build ms | ns / point | bytes / texel | inside: at point | footprint | "
-        "bias | hue | max | behind: at point | footprint | bias | hue | max |\n"
-        "|:--|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+Table makeShadowTable(std::span<const ShadowRow> rows) {
+    Table table{.title = "Shadow stores",
+                .notes = {"rms of transmittance against the exact value at the point, and against its "
+                          "mean over the store's filter; the rest against that mean."},
+                .header = {"scene", "store", "build ms", "p05..p95", "ns / point", "bytes / texel",
+                           "inside: at point", "footprint", "bias", "hue", "max",
+                           "behind: at point", "footprint", "bias", "hue", "max"},
+                .textColumns = 2};
     for (const ShadowRow& row : rows) {
-        if (!row.failure.empty()) {
-            table += fmt::format("| {} | {} | failed: {} |\n", row.scene, row.store, row.failure);
-            continue;
+        Cells cells = {row.scene, row.store};
+        if (row.failure.empty()) {
+            cells.push_back(fmt::format("{:.1f}", row.build.median));
+            cells.push_back(fmt::format("{:.1f}..{:.1f}", row.build.p05, row.build.p95));
+            cells.push_back(fmt::format("{:.0f}", row.sampleNs));
+            cells.push_back(fmt::format("{:.1f}", row.bytesPerTexel));
+            for (const ShadowErrors* e : {&row.inside, &row.behind}) {
+                for (const double figure : {e->atPoint.rms, e->footprint.rms})
+                    cells.push_back(fmt::format("{:.4f}", figure));
+                cells.push_back(fmt::format("{:+.4f}", e->footprint.bias));
+                cells.push_back(fmt::format("{:.4f}", e->footprint.hue));
+                cells.push_back(fmt::format("{:.3f}", e->footprint.max));
+            }
+        } else {
+            cells.push_back("failed");
         }
-        table += fmt::format("| {} | {} | {:.1f} | {:.0f} | {:.1f} |", row.scene, row.store,
-                             row.buildMs, row.sampleNs, row.bytesPerTexel);
-        for (const ShadowErrors* e : {&row.inside, &row.behind})
-            table += fmt::format(" {:.4f} | {:.4f} | {:+.4f} | {:.4f} | {:.3f} |", e->atPoint.rms,
-                                 e->footprint.rms, e->footprint.bias, e->footprint.hue,
-                                 e->footprint.max);
-        table += "\n";
+        table.rows.push_back(std::move(cells));
     }
     return table;
 }
 
-std::string toJson(std::span<const ShadowRow> rows) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const ShadowRow& row : rows)
-        list.push_back({{"scene", row.scene},
-                        {"shadow", row.store},
-                        {"settings", row.settings},
-                        {"device", row.device},
-                        {"driver", row.driver},
-                        {"commit", row.commit},
-                        {"buildMs", row.buildMs},
-                        {"sampleNs", row.sampleNs},
-                        {"bytesPerTexel", row.bytesPerTexel},
-                        {"inside", describe(row.inside)},
-                        {"behind", describe(row.behind)},
-                        {"failure", row.failure}});
-    return nlohmann::json{{"shadows", list}}.dump(2) + "\n";
+nlohmann::ordered_json describe(const ShadowRow& row) {
+    nlohmann::ordered_json json = {{"scene", row.scene},     {"shadow", row.store},
+                                   {"settings", row.settings}, {"device", row.device},
+                                   {"driver", row.driver},   {"commit", row.commit},
+                                   {"command", row.command}};
+    if (!row.failure.empty()) {
+        json["failure"] = row.failure;
+        return json;
+    }
+    json["buildMs"] = {{"median", row.build.median},
+                       {"p05", row.build.p05},
+                       {"p95", row.build.p95},
+                       {"repeats", row.build.repeats}};
+    json["sampleNs"] = row.sampleNs;
+    json["bytesPerTexel"] = row.bytesPerTexel;
+    json["seeds"] = {{"points", kPointSeed}};
+    json["inside"] = describe(row.inside);
+    json["behind"] = describe(row.behind);
+    return json;
 }
 
 }  // namespace brume::bench

@@ -2,11 +2,14 @@
 // What each shadow store costs on a scene and how wrong it is, at points.
 #pragma once
 
+#include <bench/statistics.hpp>
+#include <bench/table.hpp>
 #include <core/log.hpp>
 #include <gpu/device.hpp>
 #include <render/renderer.hpp>
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,11 +37,12 @@ struct ShadowRow {
     std::string store;
     scene::Settings settings;
     std::string device, driver, commit;
-    double buildMs = 0;   ///< of the map, on the device
+    TimeSummary build;    ///< ms, of the map, on the device
     double sampleNs = 0;  ///< per point, on the device
     double bytesPerTexel = 0;
     ShadowErrors inside;  ///< points in the box around the casters
     ShadowErrors behind;  ///< points behind all of them
+    std::string command;  ///< that measures this row again, for a shell
     std::string failure;  ///< why there is no measurement, or empty
 };
 
@@ -50,14 +54,13 @@ struct ShadowMeasureOptions {
     std::function<void(double fraction)> progress;
 };
 
-/// Measures the stores on the first directional light of the scene, which gets a shadow if it has
+/// Measures the stores, in turn, on the first directional light of the scene, which gets a shadow if it has
 /// none. Throws an input Error if there is none, or nothing translucent, or for an unknown setting.
 std::vector<ShadowRow> measureShadows(gpu::Device& device, const std::string& sceneName,
                                       const render::PreparedScene& scene,
                                       const ShadowMeasureOptions& options, const Log& log);
 
-std::string formatShadowTable(std::span<const ShadowRow> rows);
-/// {"shadows": [...]}
-std::string toJson(std::span<const ShadowRow> rows);
+Table makeShadowTable(std::span<const ShadowRow> rows);
+nlohmann::ordered_json describe(const ShadowRow& row);
 
 }  // namespace brume::bench

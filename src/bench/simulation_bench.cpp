@@ -206,21 +206,23 @@ std::vector<SimulationCost> measureSimulation(gpu::Device& device, std::uint32_t
         for (std::size_t i = 0; i < one.timesMs.size(); ++i)
             ratios.push_back(one.timesMs[i] / cases[0].timesMs[i]);
         const TimeSummary time = summarise(one.timesMs);
-        costs.push_back({one.name, time.median, time.p05, summarise(ratios).median,
-                         1e3 * particleCount / time.median});
+        costs.push_back({one.name, time, summarise(ratios).median,
+                         1e3 * particleCount / time.median,
+                         fmt::format("brume bench --scenes simulate --particles {} --repeats {}",
+                                     particleCount, repeats)});
     }
     return costs;
 }
 
-std::string formatTable(const std::vector<SimulationCost>& costs) {
-    std::string text = fmt::format(
-        "| {:<38} | {:>8} | {:>8} | {:>6} | {:>8} |\n"
-        "|---|---:|---:|---:|---:|\n",
-        "simulate", "ms", "p05", "x copy", "M/s");
+Table makeSimulationTable(std::span<const SimulationCost> costs) {
+    Table table{.title = "Particle simulator",
+                .header = {"simulate", "ms", "p05..p95", "x copy", "M/s"}};
     for (const SimulationCost& cost : costs)
-        text += fmt::format("| {:<38} | {:>8.3f} | {:>8.3f} | {:>6.2f} | {:>8.1f} |\n", cost.name,
-                            cost.timeMs, cost.p05Ms, cost.copyRatio, cost.perSecond * 1e-6);
-    return text;
+        table.rows.push_back({cost.name, fmt::format("{:.3f}", cost.time.median),
+                              fmt::format("{:.3f}..{:.3f}", cost.time.p05, cost.time.p95),
+                              fmt::format("{:.2f}", cost.copyRatio),
+                              fmt::format("{:.1f}", cost.perSecond * 1e-6)});
+    return table;
 }
 
 }  // namespace brume::bench

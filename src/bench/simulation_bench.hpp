@@ -2,7 +2,10 @@
 // What the particle simulator costs, beside a plain copy of the same bytes in the same run.
 #pragma once
 
+#include <bench/statistics.hpp>
+#include <bench/table.hpp>
 #include <gpu/device.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,10 +13,10 @@ namespace brume::bench {
 
 struct SimulationCost {
     std::string name;
-    double timeMs = 0;     ///< median
-    double p05Ms = 0;      ///< one of twenty is faster: what a quiet machine takes
+    TimeSummary time;      ///< ms; one of twenty is faster than p05: what a quiet machine takes
     double copyRatio = 0;  ///< to the copy of 40 bytes per particle: median over the rounds
     double perSecond = 0;  ///< particles or pairs, by the median
+    std::string command;   ///< that measures this and the others again, for a shell
 };
 
 /// Measures ticks of `particleCount` living particles (without modules; gravity and drag, of one
@@ -22,7 +25,6 @@ struct SimulationCost {
 std::vector<SimulationCost> measureSimulation(gpu::Device& device, std::uint32_t particleCount,
                                               int repeats);
 
-/// As an aligned table; also valid Markdown.
-std::string formatTable(const std::vector<SimulationCost>& costs);
+Table makeSimulationTable(std::span<const SimulationCost> costs);
 
 }  // namespace brume::bench

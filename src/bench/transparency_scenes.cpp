@@ -292,6 +292,31 @@ scene::Scene makeMixed() {
     return b.scene;
 }
 
+/// A ball of hair: ribbons of half coverage that overlap a hundredfold at its rim.
+scene::Scene makeFur() {
+    Builder b(dvec3(0, 0, 4.2), dvec3(0, -0.2, 0), 36);
+    addDaylight(b.scene);
+    b.scene.background.radiance = dvec3(0.55, 0.65, 0.8);
+    b.addMesh(scene::makeSphere(0.5, 32), b.addOpaque({0.3, 0.2, 0.12}));
+    Random random(16);
+    scene::Mesh coats[3];
+    for (int i = 0; i < 6000; ++i) {
+        const double z = random.uniform(-1, 1), turn = random.uniform(0, 2 * kPi);
+        const dvec3 out(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+        const scene::Mesh hair = makeRibbon(0.5 * out, 0.5 * out + dvec3(0, 0.2, 0),
+                                            random.uniform(0.2, 0.5), 0.006, 5);
+        scene::Mesh& coat = coats[i % 3];
+        const auto first = static_cast<std::uint32_t>(coat.positions.size());
+        coat.positions.insert(coat.positions.end(), hair.positions.begin(), hair.positions.end());
+        coat.normals.insert(coat.normals.end(), hair.normals.begin(), hair.normals.end());
+        coat.uvs.insert(coat.uvs.end(), hair.uvs.begin(), hair.uvs.end());
+        for (const std::uint32_t index : hair.indices) coat.indices.push_back(first + index);
+    }
+    for (int i = 0; i < 3; ++i)
+        b.addMesh(std::move(coats[i]), b.addThin(0.5, dvec3(0), (0.5 + 0.25 * i) * dvec3(0.6, 0.4, 0.2)));
+    return b.scene;
+}
+
 struct Maker {
     std::string_view name;
     scene::Scene (*make)();
@@ -303,6 +328,7 @@ constexpr Maker kMakers[] = {{"glass_bars", &makeGlassBars},
                              {"smoke_and_glass", &makeSmokeAndGlass},
                              {"plume_100k", &makePlume100k},
                              {"engine", &makeEngine},
+                             {"fur", &makeFur},
                              {"mixed", &makeMixed}};
 
 }  // namespace

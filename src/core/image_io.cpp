@@ -168,7 +168,9 @@ struct Pixels {
     const char* description = nullptr;
 };
 
-void writePixels(const std::filesystem::path& file, const Pixels& pixels) {
+/// `memory`: takes the bytes instead of the file; may be null.
+void writePixels(const std::filesystem::path& file, const Pixels& pixels,
+                 OIIO::Filesystem::IOProxy* memory = nullptr) {
     const bool isFloat = pixels.linear;
     std::unique_ptr<OIIO::ImageOutput> output =
         OIIO::ImageOutput::create(isFloat ? "openexr" : "png");
@@ -182,6 +184,8 @@ void writePixels(const std::filesystem::path& file, const Pixels& pixels) {
         spec["DateTime"] = "1970:01:01 00:00:00";
     }
     if (pixels.description) spec["ImageDescription"] = pixels.description;
+    if (memory && !output->set_ioproxy(memory))
+        throw failure(kWriting, file.string(), "cannot be written to memory");
     bool isWritten = output->open(file.string(), spec);
     if (isWritten && isFloat)
         isWritten = output->write_image(OIIO::TypeDesc::FLOAT, pixels.linear);
@@ -256,6 +260,15 @@ void writeSrgb8(const std::filesystem::path& file, int width, int height,
     if (width < 1 || height < 1 || pixels.size() != 3 * static_cast<std::size_t>(width) * height)
         throw inputError(kWriting, file.string(), "the picture does not have three bytes per pixel");
     writeWhole(file, {width, height, nullptr, pixels.data()});
+}
+
+std::vector<unsigned char> encodePng(const Image& image) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::vector<unsigned char> pixels = encodeSrgb8(image);
+    writePixels("memory.png", {image.width, image.height, nullptr, pixels.data(), kToneCurveText},
+                &memory);
+    return bytes;
 }
 
 std::vector<unsigned char> encodeSrgb8(const Image& image) {

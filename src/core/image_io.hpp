@@ -33,6 +33,9 @@ void writeImage(const std::filesystem::path& file, const Image& image);
 void writeSrgb8(const std::filesystem::path& file, int width, int height,
                 const std::vector<unsigned char>& pixels);
 
+/// The bytes of the PNG file that writeImage() would write. Throws a failure Error.
+std::vector<unsigned char> encodePng(const Image& image);
+
 /// The pixels that a PNG of the image has, three bytes each.
 std::vector<unsigned char> encodeSrgb8(const Image& image);
 

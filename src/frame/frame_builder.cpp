@@ -5,6 +5,7 @@
 #include <frame/frame_builder.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace brume::frame {
 namespace {
@@ -136,6 +137,24 @@ FrameDescription FrameBuilder::describe() const {
         description.targets.push_back(std::move(target));
     }
     return description;
+}
+
+std::map<std::string, std::uint64_t> FrameBuilder::passBytes() const {
+    std::map<std::string, std::uint64_t> bytes;
+    for (const PassBuilder& pass : mPasses) {
+        std::set<std::uint32_t> read, written;
+        for (const PassBuilder::Use& use : pass.mUses) {
+            if (use.isRead) read.insert(use.index);
+            if (use.isWrite) written.insert(use.index);
+        }
+        for (const std::set<std::uint32_t>* touched : {&read, &written})
+            for (const std::uint32_t index : *touched) {
+                const Resource& resource = mResources.at(index);
+                bytes[pass.mName] += resource.isImage ? estimateBytes(resource.imageDesc)
+                                                      : resource.bufferDesc.bytes;
+            }
+    }
+    return bytes;
 }
 
 std::string FrameDescription::text() const {

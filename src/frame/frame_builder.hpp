@@ -163,6 +163,9 @@ class FrameBuilder {
     void finishAs(ImageRef ref, Access access);
 
     FrameDescription describe() const;
+    /// By pass name: bytes of all that its passes declare to read, and of all that they declare to
+    /// write: what memory moves if all of it is touched once each way.
+    std::map<std::string, std::uint64_t> passBytes() const;
 
     /// Records everything. Throws an AssertionError if a pass reads a transient resource that none
     /// has written. `timers` (may be null) is not reset here. After a throw, the frame may be

@@ -47,6 +47,7 @@ struct OptionalFeatures {
     bool storageImageWriteWithoutFormat = false;
     bool depthClamp = false;
     bool vertexStores = false;  ///< stores and atomics in vertex shaders
+    bool pipelineStatistics = false;  ///< TimerPool::countFragments()
 };
 
 /// A failure that Vulkan has returned.

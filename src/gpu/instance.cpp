@@ -76,7 +76,8 @@ std::vector<OptionalFeature> optionalFeatures(FeatureChain& c) {
             {&F::multiDrawIndirect, &base.multiDrawIndirect},
             {&F::storageImageWriteWithoutFormat, &base.shaderStorageImageWriteWithoutFormat},
             {&F::depthClamp, &base.depthClamp},
-            {&F::vertexStores, &base.vertexPipelineStoresAndAtomics}};
+            {&F::vertexStores, &base.vertexPipelineStoresAndAtomics},
+            {&F::pipelineStatistics, &base.pipelineStatisticsQuery}};
 }
 
 void checkFeatures(const InstanceFunctions& functions, Candidate& candidate) {

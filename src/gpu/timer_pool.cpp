@@ -8,7 +8,7 @@
 namespace brume::gpu {
 
 TimerPool::TimerPool(Device& device, const std::string& name, std::uint32_t maxScopes)
-    : mDevice(&device), mMaxScopes(maxScopes) {
+    : mDevice(&device), mMaxScopes(maxScopes), mName(name) {
     if (device.limits().timestampValidBits == 0) return;
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
@@ -21,9 +21,33 @@ TimerPool::TimerPool(Device& device, const std::string& name, std::uint32_t maxS
     device.setName(VK_OBJECT_TYPE_QUERY_POOL, (std::uint64_t)mPool, name);
 }
 
+void TimerPool::createStatistics() {
+    VkQueryPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
+    info.pipelineStatistics = VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
+    info.queryCount = mMaxScopes;
+    mStatisticsOwner = ObjectOwner(*mDevice, "statistics", mName);
+    mDevice->check(
+        mDevice->vk().vkCreateQueryPool(mDevice->handle(), &info, mDevice->allocator(), &mStatistics),
+        "creating statistics", mName);
+    mStatisticsOwner.add(owned(VK_OBJECT_TYPE_QUERY_POOL, mStatistics));
+    mDevice->setName(VK_OBJECT_TYPE_QUERY_POOL, (std::uint64_t)mStatistics, mName);
+}
+
+bool TimerPool::countFragments(bool isWanted) {
+    mIsCountWanted = isWanted && mDevice->features().pipelineStatistics;
+    if (mIsCountWanted && !mStatistics) createStatistics();
+    return mIsCountWanted;
+}
+
 void TimerPool::reset(Commands& commands) {
     mNames.clear();
-    if (mPool) mDevice->vk().vkCmdResetQueryPool(commands.handle(), mPool, 0, 2 * mMaxScopes);
+    mIsCounted.clear();
+    mDepth = 0;
+    const auto reset = mDevice->vk().vkCmdResetQueryPool;
+    if (mPool) reset(commands.handle(), mPool, 0, 2 * mMaxScopes);
+    if (mStatistics) reset(commands.handle(), mStatistics, 0, mMaxScopes);
 }
 
 // Work before the timestamp is done when it is taken, and work after it has not begun: otherwise
@@ -39,11 +63,35 @@ void TimerPool::write(Commands& commands, std::size_t query) {
 
 std::size_t TimerPool::begin(Commands& commands, const std::string& name) {
     mNames.push_back(name);
-    write(commands, 2 * (mNames.size() - 1));
-    return mNames.size() - 1;
+    const std::size_t scope = mNames.size() - 1;
+    write(commands, 2 * scope);
+    mIsCounted.push_back(mIsCountWanted && mDepth == 0 && scope < mMaxScopes);
+    ++mDepth;
+    if (mIsCounted.back())
+        mDevice->vk().vkCmdBeginQuery(commands.handle(), mStatistics,
+                                      static_cast<std::uint32_t>(scope), 0);
+    return scope;
 }
 
-void TimerPool::end(Commands& commands, std::size_t scope) { write(commands, 2 * scope + 1); }
+void TimerPool::end(Commands& commands, std::size_t scope) {
+    --mDepth;
+    if (mIsCounted[scope])
+        mDevice->vk().vkCmdEndQuery(commands.handle(), mStatistics,
+                                    static_cast<std::uint32_t>(scope));
+    write(commands, 2 * scope + 1);
+}
+
+std::vector<std::uint64_t> TimerPool::readFragments() const {
+    std::vector<std::uint64_t> counts(mNames.size());
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (mIsCounted[i])
+            mDevice->check(mDevice->vk().vkGetQueryPoolResults(
+                               mDevice->handle(), mStatistics, static_cast<std::uint32_t>(i), 1,
+                               sizeof(std::uint64_t), &counts[i], sizeof(std::uint64_t),
+                               VK_QUERY_RESULT_64_BIT),
+                           "reading statistics", mNames[i]);
+    return counts;
+}
 
 std::vector<std::uint64_t> TimerPool::readTicks() const {
     const std::size_t scopes = std::min<std::size_t>(mNames.size(), mMaxScopes);
@@ -66,10 +114,12 @@ double TimerPool::toMs(std::uint64_t first, std::uint64_t last) const {
 
 std::vector<ScopeTime> TimerPool::read() const {
     const std::vector<std::uint64_t> ticks = readTicks();
+    const std::vector<std::uint64_t> fragments = readFragments();
     std::vector<ScopeTime> times;
     for (std::size_t i = 0; i < mNames.size(); ++i)
         times.push_back(
-            {mNames[i], 2 * i + 1 < ticks.size() ? toMs(ticks[2 * i], ticks[2 * i + 1]) : 0.0});
+            {mNames[i], 2 * i + 1 < ticks.size() ? toMs(ticks[2 * i], ticks[2 * i + 1]) : 0.0,
+             fragments[i]});
     return times;
 }
 

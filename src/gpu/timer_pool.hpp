@@ -12,6 +12,7 @@ namespace brume::gpu {
 struct ScopeTime {
     std::string name;
     double timeMs = 0;
+    std::uint64_t fragments = 0;  ///< shader invocations, if they are counted
 };
 
 /// Timestamps of one frame; with several frames in flight use one pool for each. On a device
@@ -21,6 +22,10 @@ class TimerPool {
   public:
     explicit TimerPool(Device& device, const std::string& name = "timers",
                        std::uint32_t maxScopes = 512);
+
+    /// From the next reset() on, fragment shader invocations are counted as well (of scopes within
+    /// others: by the outer one) or no longer. Counting costs time. Returns whether the device can.
+    bool countFragments(bool isWanted);
 
     /// Forgets all scopes; first call of a frame, outside rendering.
     void reset(Commands& commands);
@@ -35,14 +40,21 @@ class TimerPool {
 
   private:
     void write(Commands& commands, std::size_t query);
+    void createStatistics();
+    std::vector<std::uint64_t> readFragments() const;
     std::vector<std::uint64_t> readTicks() const;
     double toMs(std::uint64_t first, std::uint64_t last) const;
 
     Device* mDevice;
     std::uint32_t mMaxScopes;
     VkQueryPool mPool = VK_NULL_HANDLE;
+    VkQueryPool mStatistics = VK_NULL_HANDLE;  ///< one query per scope, once they are wanted
+    std::string mName;
     std::vector<std::string> mNames;
-    ObjectOwner mOwner;
+    std::vector<bool> mIsCounted;  ///< by scope
+    bool mIsCountWanted = false;
+    std::size_t mDepth = 0;  ///< of open scopes
+    ObjectOwner mOwner, mStatisticsOwner;
 };
 
 }  // namespace brume::gpu

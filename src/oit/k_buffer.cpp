@@ -146,6 +146,7 @@ const MethodInfo& info() {
         .passes = "2 raster + 1 resolve",
         .bytesPerPixel = "32 K + 34 (40 more with solids)",
         .limits = "overlapping media are not mixed; needs 64-bit atomics on buffers",
+        .weaknesses = {Weakness::ManyLayers, Weakness::Overlap},
         .settings = {{"layers", "1..64", "8", "K, how many are kept in order"}}};
     return kInfo;
 }

@@ -8,7 +8,8 @@
 //         whole interval; roots are bracketed by those of the derivatives, for any number of
 //         moments; moments are biased towards those of the arcsine distribution; where all depth
 //         lies at one place there is a branch of its own (the Hankel matrix has rank one).
-// Limits: stacks of discrete layers are smoothed; overlapping media are ordered by their middles.
+// Limits: stacks of discrete layers are smoothed; media of optical depths above ten or so come out
+// too dark (the correction of their sum is bounded); overlapping media are ordered by their middles.
 // Cost: three raster passes, one resolve; bytes per pixel as info() says.
 #include <oit/layers.hpp>
 #include <oit/oit_method.hpp>
@@ -186,7 +187,10 @@ const MethodInfo& info() {
         .exactness = Exactness::Approximate,
         .passes = "3 raster + 1 resolve",
         .bytesPerPixel = "58; 74 with 6 or 8 moments; half: 50, 58",
-        .limits = "stacks of discrete layers are smoothed; overlapping media are not mixed",
+        .limits = "stacks of discrete layers are smoothed; thick media come out too dark; overlapping media "
+                  "are not mixed",
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
+                       Weakness::Thick, Weakness::Emission},
         .settings = {{"moments", "4, 6, 8", "4", "how many are kept"},
                      {"precision", "half, single", "single", "of the moments; ties the bias"}}};
     return kInfo;

@@ -129,7 +129,9 @@ const MethodInfo& info() {
         .exactness = Exactness::Approximate,
         .passes = "N raster + 1 resolve",
         .bytesPerPixel = "68 (40 more with solids)",
-        .limits = "nothing behind the nearest N layers; overlapping media are not mixed",
+        .limits = "nothing behind the nearest N layers; layers at one distance count once; overlapping media "
+                  "are not mixed",
+        .weaknesses = {Weakness::ManyLayers, Weakness::LostLayers, Weakness::Overlap},
         .settings = {{"layers", "1..256", "8", "N, how many are peeled"}}};
     return kInfo;
 }

@@ -17,6 +17,32 @@ struct Registration {
 
 #include <oit/registered_methods.inc>
 
+std::string_view describe(Weakness weakness) {
+    switch (weakness) {
+        case Weakness::Order:
+            return "order";
+        case Weakness::ManyLayers:
+            return "many layers";
+        case Weakness::LostLayers:
+            return "lost layers";
+        case Weakness::Thick:
+            return "thick media";
+        case Weakness::Emission:
+            return "emission without extinction";
+        case Weakness::Overlap:
+            return "overlap";
+        case Weakness::Surfaces:
+            return "surfaces";
+        case Weakness::Colour:
+            return "colour";
+        case Weakness::Profile:
+            return "profile";
+        case Weakness::Noise:
+            break;
+    }
+    return "noise";
+}
+
 std::span<const MethodInfo> listMethods() {
     static const std::vector<MethodInfo> infos = [] {
         std::vector<MethodInfo> list;

@@ -82,6 +82,7 @@ const MethodInfo& info() {
         .limits =
             "overlapping media are not mixed; surfaces come after all media; colour of "
             "transmission is averaged",
+        .weaknesses = {Weakness::Overlap, Weakness::Surfaces, Weakness::Colour},
         .settings = {kLowResolution}};
     return kInfo;
 }

@@ -452,6 +452,7 @@ const MethodInfo& info() {
         .bytesPerPixel = "34 + 4 S, S <= 16 samples in a pass; 50 + 12 S, S <= 8 with colours; "
                          "adaptive: 50 more, 66 with colours; filter: 14 more",
         .limits = "noise; bricks and boxes count as homogeneous inside",
+        .weaknesses = {Weakness::Noise, Weakness::Profile, Weakness::Emission},
         .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024", "4",
                       "per pixel; with an error at most, and 256 if not given"},
                      {"error", "0..1", "0",

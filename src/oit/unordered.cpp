@@ -38,6 +38,8 @@ const MethodInfo& info() {
         .passes = "1 raster",
         .bytesPerPixel = "0 (40 with solids; lowResolution n: 16 / n^2)",
         .limits = "ignores order, overlap and colour of transmission",
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
+                       Weakness::Colour},
         .settings = {kLowResolution}};
     return kInfo;
 }

@@ -297,6 +297,8 @@ const MethodInfo& info() {
                          "blend)",
         .limits = "near layers do not hide far ones of another radiance as they should; overlapping "
                   "media are not mixed",
+        .weaknesses = {Weakness::Order, Weakness::ManyLayers, Weakness::Overlap, Weakness::Surfaces,
+                       Weakness::Emission},
         .settings = {
             {"precision", "packed, half, single, exact", "single",
              "of the sums; packed: the formats of the paper; exact keeps thousands of faint layers "

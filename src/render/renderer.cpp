@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -414,19 +415,28 @@ Renderer::Renderer(gpu::Device& device, const PreparedScene& scene, const Option
 Renderer::~Renderer() = default;
 
 Result Renderer::Impl::run(frame::FrameBuilder& frame) {
+    const auto start = std::chrono::steady_clock::now();
     submitter.submitAndWait("frame", [&](gpu::Commands& commands) {
         timers.reset(commands);
         frame.execute(commands, &timers);
     });
     Result result;
+    result.wallMs =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     for (const gpu::ScopeTime& scope : timers.read()) {
         const auto same = std::find_if(result.passes.begin(), result.passes.end(),
                                        [&](const PassTime& p) { return p.name == scope.name; });
-        if (same != result.passes.end())
+        if (same != result.passes.end()) {
             same->timeMs += scope.timeMs;
-        else
-            result.passes.push_back({scope.name, scope.timeMs});
+            same->fragments += scope.fragments;
+        } else {
+            result.passes.push_back({scope.name, scope.timeMs, 0, scope.fragments});
+        }
     }
+    const std::map<std::string, std::uint64_t> bytesByPass = frame.passBytes();
+    for (PassTime& pass : result.passes)
+        if (const auto found = bytesByPass.find(pass.name); found != bytesByPass.end())
+            pass.bytes = found->second;
     // The frame proper: neither the comparison's pass nor what takes the image away.
     for (const PassTime& pass : result.passes)
         if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read") &&
@@ -458,6 +468,8 @@ Result Renderer::drawFrame(const gpu::Image& target) {
     mImpl->declareShownFrame(frame, target);
     return mImpl->run(frame);
 }
+
+void Renderer::countFragments(bool isWanted) { mImpl->timers.countFragments(isWanted); }
 
 EffectContents Renderer::readEffects() const {
     return {mImpl->composer.effects.readSpheres(mImpl->submitter), mImpl->surfaced.surfaces};

@@ -52,6 +52,8 @@ struct Options {
 struct PassTime {
     std::string name;  ///< e.g. "oit.linked_list.resolve"
     double timeMs = 0;
+    std::uint64_t bytes = 0;      ///< of what it declares to read and to write, each once
+    std::uint64_t fragments = 0;  ///< shader invocations, if Renderer::countFragments()
 };
 
 struct Result {
@@ -59,6 +61,7 @@ struct Result {
     std::vector<std::uint32_t>
         triangles;      ///< as reference::Result::triangles; empty unless asked for
     double timeMs = 0;  ///< first to last command of the frame, on the device
+    double wallMs = 0;  ///< recording, submitting and waiting for it, on the host
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> bytes;     ///< device memory by kind; "total" among them
     std::map<std::string, std::uint64_t> counters;  ///< stored, dropped, bands, longestList, ...
@@ -91,6 +94,9 @@ class Renderer {
     /// Renders one frame and reads it back. May be called again (benchmarks): same image, new
     /// times.
     Result renderFrame();
+
+    /// Whether frames count their fragments, which costs time. Where the device cannot, they are 0.
+    void countFragments(bool isWanted);
 
     /// Particles as simulated on the device, read back: for the reference.
     EffectContents readEffects() const;

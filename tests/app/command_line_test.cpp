@@ -85,6 +85,8 @@ TEST_F(CommandLine, BadValues_AreOneLineAndCodeTwo) {
              {"render", scene, "-o", "image.gif"},
              {"render", scene, "--method", "reference", "--set", "steps=3"},
              {"bench", "--scenes", "no_such_scene"},
+             {"bench", "--suite", "no_such_suite"},
+             {"bench", "--compare", "/no/such.json", "/no/other.json"},
              {"simulate", scene, "--frames", "0"},
              {"simulate", scene, "--dt", "nan"}})
         expectUsageError(runBrume(arguments));

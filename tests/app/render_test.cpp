@@ -218,7 +218,48 @@ TEST_F(RenderCommandLine, Bench_GivesOneRowPerSceneAndMethod) {
         }
     }
     EXPECT_GT(rows[0]["layerPixelsPerSecond"], 0);
-    EXPECT_TRUE(fs::exists(mFolder / "report/report.md"));
+    EXPECT_TRUE(fs::exists(mFolder / "report/report.html"));
+    const Json machine = readJson("b.json")["machine"];
+    EXPECT_GT(machine["bytesPerSecond"], 1e6);
+    EXPECT_GT(machine["fragmentsPerSecond"], 1e6);
+    EXPECT_GT(machine["cores"], 0);
+}
+
+TEST_F(RenderCommandLine, Bench_CommandOfARow_MeasuresTheSameAgain) {
+    const Outcome outcome =
+        runBrume({"bench", "--scenes", path("scene.json"), "--methods", "stochastic:samples=8,tile",
+                  "--shadow", "visibility", "--set", "shadow.resolution=64", "--set", "epsilon=0",
+                  "--size", "24x16", "--repeats", "2", "--json", path("b.json")});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const Json& row : readJson("b.json")["rows"]) {
+        std::string command = row["command"];
+        ASSERT_TRUE(command.starts_with("brume bench ")) << command;
+        command = BRUME_EXECUTABLE + command.substr(5) + " --json " + path("again.json") + " >" +
+                  path("log") + " 2>&1";
+        ASSERT_EQ(std::system(command.c_str()), 0) << command;
+        const Json again = readJson("again.json")["rows"];
+        ASSERT_EQ(again.size(), 1u);
+        for (const char* key : {"method", "shadow", "settings", "size", "imageHash", "command"})
+            EXPECT_EQ(again[0][key], row[key]) << key;
+        EXPECT_EQ(again[0]["passes"].size(), row["passes"].size());
+    }
+}
+
+TEST_F(RenderCommandLine, Bench_CompareSaysWhatIsWorse) {
+    const Outcome outcome = runBrume({"bench", "--scenes", "layers_2_16x16", "--methods", "unordered",
+                                      "--repeats", "3", "--json", path("a.json")});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(runBrume({"bench", "--compare", path("a.json"), path("a.json")}).exitCode, 0);
+    Json worse = readJson("a.json");
+    for (const char* figure : {"median", "p05", "p95"})
+        worse["rows"][0]["timeMs"][figure] = worse["rows"][0]["timeMs"][figure].get<double>() * 100;
+    std::ofstream(mFolder / "b.json") << worse;
+    const Outcome compared = runBrume({"bench", "--compare", path("a.json"), path("b.json")});
+    EXPECT_EQ(compared.exitCode, 1);
+    EXPECT_NE(compared.out.find("100.00 times as long"), std::string::npos) << compared.out;
+    EXPECT_TRUE(isOneErrorLine(compared.err)) << compared.err;
+    EXPECT_EQ(runBrume({"bench", "--compare", path("b.json"), path("a.json")}).exitCode, 0);
+    EXPECT_EQ(runBrume({"bench", "--compare", path("scene.json"), path("a.json")}).exitCode, 2);
 }
 
 TEST_F(RenderCommandLine, RibbonsAndBillboards_AreThoseOfTheReference) {

@@ -4,6 +4,7 @@
 
 #include <bench/pareto.hpp>
 #include <bench/report.hpp>
+#include <bench/svg.hpp>
 #include <core/error.hpp>
 #include <filesystem>
 #include <fstream>
@@ -56,14 +57,44 @@ TEST_F(ReportTest, Table_HasOneAlignedLinePerRow) {
     EXPECT_NE(lines[3].find("failed"), std::string::npos);
 }
 
-TEST_F(ReportTest, WriteReport_StaysInItsFolderAndNamesItsPictures) {
-    const std::vector<Measurement> rows = {makeMeasurement()};
-    writeReport(mFolder, rows);
-    const std::string report = read(mFolder / "report.md");
-    EXPECT_NE(report.find("(.._layers.linked_list.png)"), std::string::npos);
-    for (const char* file :
-         {".._layers.linked_list.png", ".._layers.linked_list.error.png", "rows.json"})
-        EXPECT_GT(std::filesystem::file_size(mFolder / file), 0u) << file;
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++found;
+    return found;
+}
+
+Results makeResults() {
+    Results results;
+    results.machine.device = "a <device>";
+    results.command = "brume bench --scenes 'a b'";
+    Measurement m = makeMeasurement();
+    m.reference = std::make_shared<const Image>(2, 2, vec3(0.25f));
+    m.row.command = "brume bench --scenes ../layers --methods linked_list";
+    m.row.passes = {{"oit.linked_list.resolve", {1, 1, 1, 3}, 1000, 20, 0.5}};
+    results.frames = {m, m};
+    results.frames[1].row.method = "weighted";
+    results.frames[1].row.time.median = 6;
+    results.frames[1].row.error->rmse = 0.1;
+    results.findings = {{.suite = "sweeps",
+                         .summary = "growth",
+                         .tables = {{.title = "t", .header = {"a"}, .rows = {{"1"}}}},
+                         .plots = {{"time", "x", "ms", {{"tile", {{1, 1}, {10, 20}}}}}}}};
+    return results;
+}
+
+TEST_F(ReportTest, WriteReport_HoldsTablesPlotsPicturesAndCommandsInOnePage) {
+    writeReport(mFolder, makeResults());
+    const std::string page = read(mFolder / "report.html");
+    EXPECT_EQ(count(page, "<svg"), 2u) << "a sweep and error against time";
+    EXPECT_EQ(count(page, "data:image/png;base64,iVBOR"), 5u) << "a reference, two results, two errors";
+    EXPECT_NE(page.find("a &lt;device&gt;"), std::string::npos);
+    EXPECT_NE(page.find("brume bench --scenes ../layers --methods linked_list"), std::string::npos);
+    EXPECT_NE(page.find("oit.linked_list.resolve"), std::string::npos);
+    for (const char* outside : {"http:", "https:", "href=", "src='/", "@import"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    EXPECT_EQ(page.find("nan"), std::string::npos);
+    EXPECT_NE(read(mFolder / "report.md").find("## sweeps: growth"), std::string::npos);
+    EXPECT_GT(std::filesystem::file_size(mFolder / "rows.json"), 0u);
 }
 
 TEST_F(ReportTest, WriteTextFile_ReplacesWholeFilesAndLeavesNothingBeside) {
@@ -97,8 +128,8 @@ TEST(Pareto, Front_HoldsWhatNoOtherBeatsInBoth) {
         makeTimed("a", "exact", 10, 1e-6),   makeTimed("a", "fast", 1, 0.1),
         makeTimed("a", "slow_wrong", 5, 0.2), makeTimed("a", "middle", 3, 0.01),
         makeTimed("b", "slow_wrong", 1, 0.2), makeTimed("b", "fast", 0.5, 0.1)};
-    EXPECT_EQ(findParetoFront(rows, "a"), (std::vector<std::size_t>{1, 3, 0}));
-    EXPECT_EQ(findParetoFront(rows, "b"), (std::vector<std::size_t>{5}));
+    EXPECT_EQ(findParetoFront(rows, "a 0x0"), (std::vector<std::size_t>{1, 3, 0}));
+    EXPECT_EQ(findParetoFront(rows, "b 0x0"), (std::vector<std::size_t>{5}));
     EXPECT_EQ(findDominated(rows), (std::set<std::string>{"slow_wrong"}));
 }
 
@@ -107,24 +138,32 @@ TEST(Pareto, RowsWithoutErrorOrMeasurement_AreLeftOut) {
                                      makeTimed("a", "good", 3, 0)};
     rows[0].row.failure = "out of memory";
     rows[1].row.error.reset();
-    EXPECT_EQ(findParetoFront(rows, "a"), (std::vector<std::size_t>{2}));
+    EXPECT_EQ(findParetoFront(rows, "a 0x0"), (std::vector<std::size_t>{2}));
     EXPECT_TRUE(findDominated(rows).empty());
 }
 
-TEST(Pareto, Page_DrawsEverySceneAndNeedsNothingElse) {
+TEST(Pareto, Plot_NamesEveryRivalAndNeedsTwo) {
     const std::vector<Measurement> rows = {makeTimed("a<b", "exact", 10, 0),
-                                           makeTimed("a<b", "fast", 1, 0.1),
+                                           makeTimed("a<b", "f<st", 1, 0.1),
                                            makeTimed("c", "fast", 1, 0.1)};
-    const std::string page = makeParetoPage(rows, "Brume & co", "| table |");
-    EXPECT_NE(page.find("a&lt;b"), std::string::npos);
-    EXPECT_NE(page.find("Brume &amp; co"), std::string::npos);
-    EXPECT_NE(page.find("| table |"), std::string::npos);
-    EXPECT_EQ(page.find("nan"), std::string::npos);
-    for (const char* outside : {"http:", "https:", "src=", "href=", "<script"})
-        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-    std::size_t plots = 0;
-    for (std::size_t at = 0; (at = page.find("<svg", at)) != std::string::npos; ++at) ++plots;
-    EXPECT_EQ(plots, 2u);
+    const std::string plot = drawParetoPlot(rows, "a<b 0x0");
+    EXPECT_NE(plot.find("f&lt;st"), std::string::npos);
+    EXPECT_EQ(plot.find("nan"), std::string::npos);
+    EXPECT_TRUE(drawParetoPlot(rows, "c 0x0").empty());
+}
+
+TEST(Table, Exponent_IsThatOfThePower) {
+    EXPECT_NEAR(fitExponent({{1, 3}, {2, 12}, {8, 192}}), 2, 1e-12);
+    EXPECT_TRUE(std::isnan(fitExponent({{2, 3}, {2, 4}})));
+    EXPECT_TRUE(std::isnan(fitExponent({})));
+}
+
+TEST(Table, Cells_AreAlignedByCharacters) {
+    const Table table{.header = {"µ", "long header"}, .rows = {{"1"}, {"ab", "2"}}};
+    std::istringstream text(formatCells(table));
+    std::string line, first;
+    std::getline(text, first);
+    while (std::getline(text, line)) EXPECT_EQ(line.size(), first.size() - 1) << line;
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Registry : public RenderTest {
         for (const vec3& pixel : result.image.pixels)
             ASSERT_TRUE(std::isfinite(pixel.x + pixel.y + pixel.z));
         EXPECT_GT(result.bytes.at("total"), 0u);
-        for (const auto& [name, timeMs] : result.passes) EXPECT_GE(timeMs, 0) << name;
+        for (const render::PassTime& pass : result.passes) EXPECT_GE(pass.timeMs, 0) << pass.name;
         for (const char* kind : {"dropped", "exhausted"}) {
             const auto counter = result.counters.find(kind);
             if (counter != result.counters.end()) {

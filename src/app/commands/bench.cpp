@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <app/commands/bench.hpp>
 #include <app/console.hpp>
-#include <bench/measure.hpp>
-#include <bench/prepare.hpp>
 #include <bench/report.hpp>
-#include <bench/scenes.hpp>
-#include <bench/simulation_bench.hpp>
-#include <bench/shadow_measure.hpp>
+#include <bench/run_diff.hpp>
+#include <bench/runner.hpp>
 #include <core/error.hpp>
+#include <fstream>
 #include <oit/method_info.hpp>
 #include <scene/loader.hpp>
 #include <shadows/store_info.hpp>
+#include <sstream>
 
 namespace brume::app {
 namespace {
+
+constexpr const char* kDoing = "benchmarking";
+/// Repeats of quick suites, unless asked for: they are many, and small.
+constexpr int kQuickRepeats = 5;
 
 std::string listSceneNames() {
     std::string names;
@@ -35,7 +39,7 @@ std::vector<bench::NamedScene> findScenes(const std::string& name, const Log& lo
             scenes.push_back({name, scene::loadScene(file, log)});
             return scenes;
         }
-    throw inputError("benchmarking", "scene " + name,
+    throw inputError(kDoing, "scene " + name,
                      "unknown, allowed are " + listSceneNames() + "demos and scene files");
 }
 
@@ -49,13 +53,6 @@ std::vector<std::string> findMethods(const std::vector<std::string>& names) {
     return methods;
 }
 
-void resize(const std::string& size, scene::Scene& scene) {
-    if (size.empty()) return;
-    const ivec2 pixels = parseSize(size);
-    scene.image.width = pixels.x;
-    scene.image.height = pixels.y;
-}
-
 std::vector<std::string> findStores(const std::vector<std::string>& names) {
     if (std::find(names.begin(), names.end(), "all") == names.end()) return names;
     std::vector<std::string> all;
@@ -64,101 +61,125 @@ std::vector<std::string> findStores(const std::vector<std::string>& names) {
     return all;
 }
 
-std::vector<bench::NamedScene> findAllScenes(const BenchArguments& arguments,
-                                             const std::vector<std::string>& fallback,
-                                             const Log& log) {
-    std::vector<bench::NamedScene> scenes;
-    for (const std::string& name : arguments.scenes.empty() ? fallback : arguments.scenes)
-        for (bench::NamedScene& found : findScenes(name, log)) {
-            resize(arguments.size, found.scene);
-            scenes.push_back(std::move(found));
-        }
-    return scenes;
-}
-
-void addLayerRates(int layerCount, std::vector<bench::Measurement>& measurements) {
-    for (bench::Measurement& m : measurements)
-        if (layerCount > 0 && m.row.failure.empty())
-            m.row.layerPixelsPerSecond =
-                1e3 * layerCount * m.row.width * m.row.height / m.row.time.median;
-}
-
-void writeResults(const BenchArguments& arguments, const std::vector<bench::Measurement>& results) {
-    fmt::print("{}", bench::formatTable(results));
-    if (!arguments.json.empty()) {
-        std::vector<bench::Row> rows;
-        for (const bench::Measurement& m : results) rows.push_back(m.row);
-        bench::writeTextFile(arguments.json, bench::toJson(rows, "rows"));
+std::vector<const bench::Suite*> findSuites(const std::vector<std::string>& names) {
+    std::vector<const bench::Suite*> suites;
+    std::vector<std::string_view> known;
+    for (const bench::Suite& suite : bench::listSuites()) known.push_back(suite.name);
+    for (const std::string& name : names) {
+        if (name == "all")
+            for (const bench::Suite& suite : bench::listSuites()) suites.push_back(&suite);
+        else if (const bench::Suite* suite = bench::findSuite(name))
+            suites.push_back(suite);
+        else
+            throw inputError(kDoing, "suite " + name,
+                             fmt::format("unknown, allowed are all, {}", fmt::join(known, ", ")));
     }
-    if (!arguments.report.empty()) bench::writeReport(arguments.report, results);
+    return suites;
 }
 
-void benchShadows(const BenchArguments& arguments, const Log& log) {
-    bench::ShadowMeasureOptions options;
-    options.stores = findStores(arguments.shadows);
-    options.settings = parseSettings(arguments.settings);
-    options.repeats = std::min(arguments.repeats, 5);
-    const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
-    std::vector<bench::ShadowRow> rows;
-    for (const bench::NamedScene& named :
-         findAllScenes(arguments, {"shadow_panes", "shadow_discs"}, log)) {
-        Progress progress("measuring " + named.name);
-        options.progress = progress.callback();
-        for (bench::ShadowRow& row : bench::measureShadows(
-                 *device, named.name, bench::prepareScene(named.scene, log), options, log))
-            rows.push_back(std::move(row));
+/// The plans of a run without suites.
+std::vector<bench::Plan> makePlans(const BenchArguments& arguments) {
+    if (arguments.scenes == std::vector<std::string>{"simulate"})
+        return {{.kind = bench::PlanKind::Simulation, .count = arguments.particles}};
+    const bool areStores = !arguments.shadows.empty();
+    bench::Plan plan;
+    plan.kind = areStores ? bench::PlanKind::ShadowPoints : bench::PlanKind::Frames;
+    plan.methods = areStores ? findStores(arguments.shadows) : findMethods(arguments.methods);
+    if (!arguments.size.empty()) plan.size = parseSize(arguments.size);
+    plan.shadow = arguments.shadow;
+    plan.settings = parseSettings(arguments.settings);
+    plan.truth = arguments.truth;
+    plan.count = areStores ? arguments.points : 0;
+    std::vector<std::string> scenes = arguments.scenes;
+    if (scenes.empty())
+        scenes = areStores ? std::vector<std::string>{"shadow_panes", "shadow_discs"}
+                           : std::vector<std::string>{"layers", "spheres_1k_48"};
+    std::vector<bench::Plan> plans;
+    for (const std::string& scene : scenes) {
+        plan.scene = scene;
+        plans.push_back(plan);
     }
-    fmt::print("{} ({})\n{}", device->info().name, device->info().driver,
-               bench::formatShadowTable(rows));
-    if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(rows));
-    checkValidation(*device, log);
-    for (const bench::ShadowRow& row : rows)
-        if (!row.failure.empty())
-            throw failure("benchmarking", row.scene + " with " + row.store, row.failure);
+    return plans;
 }
 
-/// `--scenes simulate`: the particle simulator instead of pictures.
-void benchSimulation(const BenchArguments& arguments, const Log& log) {
-    constexpr std::uint32_t kParticles = 1'000'000;
-    const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
-    fmt::print("{} ({}), {} particles, median of {} ticks\n", device->info().name,
-               device->info().driver, kParticles, arguments.repeats);
-    fmt::print("{}", bench::formatTable(
-                         bench::measureSimulation(*device, kParticles, arguments.repeats)));
-    checkValidation(*device, log);
+std::string readTextFile(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw inputError("comparing runs", file.string(), "cannot be read, is it there?");
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+void compareRuns(const BenchArguments& arguments) {
+    const std::filesystem::path &before = arguments.compare.at(0), &after = arguments.compare.at(1);
+    const bench::RunDiff diff =
+        bench::diffRuns(readTextFile(before), before.string(), readTextFile(after), after.string(),
+                        arguments.threshold);
+    fmt::print("{}", bench::formatDiff(diff));
+    if (!diff.regressions.empty())
+        throw failure("comparing runs", after.string(),
+                      fmt::format("{} of {} rows are worse beyond noise", diff.regressions.size(),
+                                  diff.comparedRows));
+}
+
+void printResults(const bench::Results& results) {
+    fmt::print("{}\n", bench::describeMachine(results.machine));
+    if (results.findings.empty()) {
+        if (!results.frames.empty()) fmt::print("{}", bench::formatTable(results.frames));
+        if (!results.shadows.empty())
+            fmt::print("{}", bench::formatCells(bench::makeShadowTable(results.shadows)));
+        if (!results.simulation.empty())
+            fmt::print("{}", bench::formatCells(bench::makeSimulationTable(results.simulation)));
+    }
+    for (const bench::Findings& findings : results.findings) {
+        fmt::print("\n## {}: {}\n\n", findings.suite, findings.summary);
+        for (const bench::Table& table : findings.tables)
+            fmt::print("{}", bench::formatMarkdown(table));
+    }
+}
+
+bench::Results measure(const BenchArguments& arguments, gpu::Device& device, const Log& log) {
+    bench::RunOptions options;
+    options.repeats = arguments.repeats;
+    options.withError = arguments.withError;
+    options.keepImages = !arguments.report.empty();
+    options.findScenes = [&](const std::string& name) { return findScenes(name, log); };
+    Progress progress("measuring");
+    options.progress = [&](const std::string& what, double fraction) {
+        progress.update(fraction);
+        log.info(fmt::format("measuring {}, {:.0f} % of its suite", what, 100 * fraction));
+    };
+    bench::Yardstick yardstick(device);
+    bench::Results results;
+    results.command = arguments.command;
+    const bench::Scale scale = arguments.isQuick ? bench::Scale::Quick : bench::Scale::Full;
+    for (const bench::Suite* suite : findSuites(arguments.suites))
+        bench::runSuite(device, yardstick, *suite, scale, options, log, results);
+    if (arguments.suites.empty())
+        bench::runPlans(device, yardstick, makePlans(arguments), "", options, log, results);
+    return results;
 }
 
 }  // namespace
 
-void runBench(const BenchArguments& arguments, const Log& log) {
-    if (arguments.scenes == std::vector<std::string>{"simulate"})
-        return benchSimulation(arguments, log);
-    if (!arguments.shadows.empty()) return benchShadows(arguments, log);
-    const std::vector<bench::NamedScene> scenes =
-        findAllScenes(arguments, {"layers", "spheres_1k_48"}, log);
-    bench::MeasureOptions options;
-    options.methods = findMethods(arguments.methods);
-    options.settings = parseSettings(arguments.settings);
-    options.repeats = arguments.repeats;
-    options.withError = arguments.withError;
+void runBench(const BenchArguments& given, const Log& log) {
+    if (!given.compare.empty()) return compareRuns(given);
+    BenchArguments arguments = given;
+    if (arguments.repeats == 0) arguments.repeats = arguments.isQuick ? kQuickRepeats : 20;
+    // Wrong names before anything is opened.
+    findSuites(arguments.suites);
+    if (arguments.suites.empty())
+        for (const bench::Plan& plan : makePlans(arguments))
+            if (plan.kind != bench::PlanKind::Simulation) findScenes(plan.scene, log);
     const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
-    fmt::print("{} ({}), median of {} frames\n", device->info().name, device->info().driver,
-               arguments.repeats);
-
-    std::vector<bench::Measurement> results;
-    for (const bench::NamedScene& named : scenes) {
-        Progress progress("measuring " + named.name);
-        options.progress = progress.callback();
-        std::vector<bench::Measurement> measured = bench::measureScene(
-            *device, named.name, bench::prepareScene(named.scene, log), options, log);
-        addLayerRates(named.layerCount, measured);
-        std::move(measured.begin(), measured.end(), std::back_inserter(results));
-    }
-    writeResults(arguments, results);
+    const bench::Results results = measure(arguments, *device, log);
+    printResults(results);
+    if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(results));
+    if (!arguments.report.empty()) bench::writeReport(arguments.report, results);
     checkValidation(*device, log);
-    for (const bench::Measurement& m : results)
-        if (!m.row.failure.empty())
-            throw failure("benchmarking", m.row.scene + " by " + m.row.method, m.row.failure);
+    if (const auto failures = bench::listFailures(results); !failures.empty())
+        throw failure(kDoing, "",
+                      fmt::format("{} rows failed, the first: {}", failures.size(), failures[0]));
 }
 
 }  // namespace brume::app

@@ -13,12 +13,21 @@ struct BenchArguments {
     std::vector<std::string> scenes;  ///< names, demos or files; empty: what fits the question
     std::vector<std::string> methods = {"all"};
     std::vector<std::string> shadows;  ///< measure these at points, instead of methods
+    std::vector<std::string> suites;   ///< of bench::listSuites(), or all
+    bool isQuick = false;              ///< suites at their small scale
+    std::string shadow;                ///< store of all lights; empty: the scenes' own
+    std::string truth;                 ///< scene that errors are against; empty: each its own
     std::string size;                  ///< "WxH"; empty: the scenes' own
-    int repeats = 20;
+    int repeats = 0;  ///< 0: 20, or few for quick suites
+    std::uint32_t points = 2000;         ///< of --shadows
+    std::uint32_t particles = 1'000'000;  ///< of --scenes simulate
     bool withError = true;
     std::vector<std::string> settings;  ///< "key=value"
     std::filesystem::path json;
     std::filesystem::path report;  ///< folder for table and images; empty: none
+    std::vector<std::filesystem::path> compare;  ///< two results: say what changed, measure nothing
+    double threshold = 0.25;                     ///< share of growth that is a regression
+    std::string command;                         ///< as it was given, for a shell
     DeviceArguments device;
 };
 

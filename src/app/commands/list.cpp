@@ -29,11 +29,18 @@ std::string_view describe(oit::Exactness exactness) {
     return "approximate";
 }
 
+std::string joinWeaknesses(const oit::MethodInfo& method) {
+    std::vector<std::string_view> words;
+    for (const oit::Weakness weakness : method.weaknesses) words.push_back(describe(weakness));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 void listMethods() {
     for (const oit::MethodInfo& m : oit::listMethods()) {
         fmt::print("{:<16} {} ({})\n", m.name, m.summary, describe(m.exactness));
         fmt::print("  paper   {}\n  passes  {}\n  bytes   {} per pixel\n  limits  {}\n", m.paper,
                    m.passes, m.bytesPerPixel, m.limits);
+        if (!m.weaknesses.empty()) fmt::print("  may err {}\n", joinWeaknesses(m));
         for (const oit::SettingInfo& s : m.settings)
             fmt::print("  --set {}={} ({}): {}\n", s.name, s.defaultValue, s.values, s.meaning);
     }

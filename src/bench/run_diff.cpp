@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bench/run_diff.hpp>
+#include <core/error.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace brume::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Below these, growth is rounding or bookkeeping.
+constexpr double kLeastError = 1e-6, kLeastBytes = 65536, kLeastMs = 0.02;
+
+Json parse(const std::string& text, const std::string& name) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || !json.contains("rows") || !json["rows"].is_array())
+        throw inputError("comparing runs", name,
+                         "is not a benchmark's result, allowed are files of brume bench --json");
+    return json;
+}
+
+/// What is the same measurement in both runs.
+std::string keyOf(const Json& row) {
+    std::string key = row.value("suite", "");
+    if (!key.empty()) key += ": ";
+    key += row.value("scene", "?") + " by " + row.value("method", "?");
+    if (const std::string shadow = row.value("shadow", "none"); shadow != "none")
+        key += " with " + shadow;
+    if (const auto size = row.find("size"); size != row.end() && size->size() == 2)
+        key += fmt::format(" {}x{}", (*size)[0].dump(), (*size)[1].dump());
+    if (const auto settings = row.find("settings"); settings != row.end())
+        for (const auto& [name, value] : settings->items())
+            key += " " + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+    return key;
+}
+
+double numberAt(const Json& row, const char* group, const char* name, double fallback = 0) {
+    const auto found = row.find(group);
+    if (found == row.end() || !found->is_object()) return fallback;
+    const auto value = found->find(name);
+    return value != found->end() && value->is_number() ? value->get<double>() : fallback;
+}
+
+/// A time in units of the yardstick, or in ms without one.
+struct Timing {
+    double median = 0, lo = 0, hi = 0;
+
+    Timing(const Json& row, bool isScaled) {
+        const double unit = isScaled ? numberAt(row, "yardstickMs", "median", 1) : 1;
+        median = numberAt(row, "timeMs", "median") / unit;
+        lo = numberAt(row, "timeMs", "p05", median * unit) / unit;
+        hi = numberAt(row, "timeMs", "p95", median * unit) / unit;
+    }
+};
+
+class Differ {
+  public:
+    Differ(double threshold, RunDiff& diff) : mThreshold(threshold), mDiff(diff) {}
+
+    void compare(const std::string& key, const Json& before, const Json& after) {
+        ++mDiff.comparedRows;
+        const bool failedBefore = before.contains("failure"), fails = after.contains("failure");
+        if (fails && !failedBefore)
+            mDiff.regressions.push_back(key + ": fails: " + after["failure"].dump());
+        if (failedBefore && !fails) mDiff.gains.push_back(key + ": fails no longer");
+        if (fails || failedBefore) return;
+        compareTimes(key, before, after);
+        compareFigures(key, before, after);
+    }
+
+  private:
+    void compareTimes(const std::string& key, const Json& before, const Json& after) {
+        const bool isScaled = before.contains("yardstickMs") && after.contains("yardstickMs");
+        const Timing a(before, isScaled), b(after, isScaled);
+        if (!(a.median > 0) || !(b.median > 0)) return;
+        if (numberAt(before, "timeMs", "median") < kLeastMs) return;
+        const double ratio = b.median / a.median;
+        const std::string line = fmt::format(
+            "{}: {:.2f} times as long{} ({:.3g} ms, was {:.3g} ms)", key, ratio,
+            isScaled ? " by the yardstick" : "", numberAt(after, "timeMs", "median"),
+            numberAt(before, "timeMs", "median"));
+        // A yardstick that was disturbed alone is no evidence: the times as they are must agree.
+        const Timing rawA(before, false), rawB(after, false);
+        if (isSlower(a, b) && isSlower(rawA, rawB)) mDiff.regressions.push_back(line);
+        if (isSlower(b, a) && isSlower(rawB, rawA)) mDiff.gains.push_back(line);
+    }
+
+    bool isSlower(const Timing& before, const Timing& after) const {
+        return after.median > before.median * (1 + mThreshold) &&
+               after.lo > before.hi * (1 + 0.5 * mThreshold);
+    }
+
+    void compareFigures(const std::string& key, const Json& before, const Json& after) {
+        compareFigure(key, "rmse", numberAt(before, "error", "rmse", -1),
+                      numberAt(after, "error", "rmse", -1), kLeastError);
+        compareFigure(key, "bytes", numberAt(before, "bytes", "total", -1),
+                      numberAt(after, "bytes", "total", -1), kLeastBytes);
+        if (numberAt(after, "error", "nonFinite") > numberAt(before, "error", "nonFinite"))
+            mDiff.regressions.push_back(
+                fmt::format("{}: {:.0f} pixels are not finite", key, numberAt(after, "error", "nonFinite")));
+        const bool isDeterministic = numberAt(before, "counters", "distinctImages") == 1 &&
+                                     numberAt(after, "counters", "distinctImages") == 1;
+        if (isDeterministic && before.value("imageHash", "") != after.value("imageHash", ""))
+            mDiff.notes.push_back(key + ": another image");
+    }
+
+    void compareFigure(const std::string& key, const char* what, double before, double after,
+                       double least) {
+        if (before < 0 || after < 0) return;
+        const std::string line = fmt::format("{}: {} {:.4g}, was {:.4g}", key, what, after, before);
+        if (after > before * (1 + mThreshold) && after - before > least)
+            mDiff.regressions.push_back(line);
+        if (after * (1 + mThreshold) < before && before - after > least)
+            mDiff.gains.push_back(line);
+    }
+
+    double mThreshold;
+    RunDiff& mDiff;
+};
+
+/// Rows of all kinds by key; shadow rows take the shape of the others.
+std::map<std::string, Json> collectRows(const Json& run) {
+    std::map<std::string, Json> rows;
+    for (const Json& row : run["rows"])
+        if (row.is_object()) rows[keyOf(row)] = row;
+    const auto addOthers = [&](const char* list, const char* time, const auto& name) {
+        const auto found = run.find(list);
+        if (found == run.end() || !found->is_array()) return;
+        for (const Json& row : *found) {
+            if (!row.is_object()) continue;
+            Json shaped = {{"timeMs", row.value(time, Json::object())}};
+            if (row.contains("failure")) shaped["failure"] = row["failure"];
+            if (const auto inside = row.find("inside"); inside != row.end())
+                shaped["error"] = {{"rmse", numberAt(*inside, "footprint", "rms")}};
+            rows[name(row)] = shaped;
+        }
+    };
+    addOthers("shadows", "buildMs", [](const Json& row) {
+        return "shadow store " + row.value("shadow", "?") + " on " + row.value("scene", "?");
+    });
+    addOthers("simulation", "timeMs",
+              [](const Json& row) { return "simulate " + row.value("name", "?"); });
+    return rows;
+}
+
+void appendList(const char* title, const std::vector<std::string>& lines, std::string& text) {
+    if (lines.empty()) return;
+    text += fmt::format("{} ({})\n", title, lines.size());
+    for (const std::string& line : lines) text += "  " + line + "\n";
+}
+
+}  // namespace
+
+RunDiff diffRuns(const std::string& oldJson, const std::string& oldName,
+                 const std::string& newJson, const std::string& newName, double threshold) {
+    const Json before = parse(oldJson, oldName), after = parse(newJson, newName);
+    const std::map<std::string, Json> oldRows = collectRows(before), newRows = collectRows(after);
+    RunDiff diff;
+    const auto device = [](const Json& run) {
+        const auto machine = run.find("machine");
+        return machine == run.end() || !machine->is_object() ? std::string()
+                                                             : machine->value("device", "");
+    };
+    if (device(before) != device(after))
+        diff.notes.push_back("other devices: " + device(before) + ", then " + device(after));
+    Differ differ(threshold, diff);
+    for (const auto& [key, row] : newRows) {
+        const auto found = oldRows.find(key);
+        if (found == oldRows.end())
+            diff.notes.push_back(key + ": only in " + newName);
+        else
+            differ.compare(key, found->second, row);
+    }
+    for (const auto& [key, row] : oldRows)
+        if (!newRows.contains(key)) diff.notes.push_back(key + ": only in " + oldName);
+    return diff;
+}
+
+std::string formatDiff(const RunDiff& diff) {
+    std::string text = fmt::format("{} rows in both runs\n", diff.comparedRows);
+    appendList("worse beyond noise", diff.regressions, text);
+    appendList("better beyond noise", diff.gains, text);
+    appendList("to note", diff.notes, text);
+    if (diff.regressions.empty() && diff.gains.empty()) text += "no change beyond noise\n";
+    return text;
+}
+
+}  // namespace brume::bench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two runs of the benchmark: what counts as a change.
+#include <gtest/gtest.h>
+
+#include <bench/results.hpp>
+#include <bench/run_diff.hpp>
+#include <core/error.hpp>
+
+namespace brume::bench {
+namespace {
+
+Row makeRow(double ms, double spread = 0.02, double yardstickMs = 10) {
+    Row row;
+    row.scene = "a";
+    row.method = "tile";
+    row.shadow = "none";
+    row.width = row.height = 8;
+    row.time = {ms, ms * (1 - spread), ms * (1 + spread), 20};
+    row.yardstick = {yardstickMs, yardstickMs, yardstickMs, 20};
+    row.bytes["total"] = 1'000'000;
+    row.counters["distinctImages"] = 1;
+    row.error = ErrorMetrics{.rmse = 1e-3};
+    return row;
+}
+
+std::string run(const Row& row) {
+    Results results;
+    results.machine.device = "device";
+    results.frames.push_back({.row = row});
+    return toJson(results);
+}
+
+RunDiff diff(const Row& before, const Row& after, double threshold = 0.25) {
+    return diffRuns(run(before), "old", run(after), "new", threshold);
+}
+
+TEST(RunDiff, SameTimes_AreNoChange) {
+    const RunDiff same = diff(makeRow(10), makeRow(10.5));
+    EXPECT_EQ(same.comparedRows, 1);
+    EXPECT_TRUE(same.regressions.empty());
+    EXPECT_TRUE(same.gains.empty());
+}
+
+TEST(RunDiff, SlowerBeyondThresholdAndSpread_IsARegression) {
+    EXPECT_EQ(diff(makeRow(10), makeRow(16)).regressions.size(), 1u);
+    EXPECT_EQ(diff(makeRow(16), makeRow(10)).gains.size(), 1u);
+    EXPECT_TRUE(diff(makeRow(10), makeRow(16), 1.0).regressions.empty()) << "threshold";
+    EXPECT_TRUE(diff(makeRow(10, 0.4), makeRow(16, 0.4)).regressions.empty()) << "spread";
+}
+
+TEST(RunDiff, AMachineThatIsSlowerAsAWhole_IsNoRegression) {
+    EXPECT_TRUE(diff(makeRow(10, 0.02, 10), makeRow(18, 0.02, 18)).regressions.empty());
+    EXPECT_TRUE(diff(makeRow(10, 0.02, 10), makeRow(10, 0.02, 5)).regressions.empty())
+        << "a yardstick alone is no evidence";
+    EXPECT_EQ(diff(makeRow(10, 0.02, 10), makeRow(18, 0.02, 10)).regressions.size(), 1u);
+}
+
+TEST(RunDiff, ErrorBytesAndFailures_AreRegressionsToo) {
+    Row wrong = makeRow(10), large = makeRow(10), failed = makeRow(10), nan = makeRow(10);
+    wrong.error->rmse = 2e-3;
+    large.bytes["total"] = 2'000'000;
+    failed.failure = "no memory";
+    nan.error->nonFinite = 3;
+    for (const Row& worse : {wrong, large, failed, nan}) {
+        EXPECT_EQ(diff(makeRow(10), worse).regressions.size(), 1u);
+        EXPECT_TRUE(diff(worse, makeRow(10)).regressions.empty());
+    }
+}
+
+TEST(RunDiff, RowsOfOneRunAndOtherImages_AreNotes) {
+    Row other = makeRow(10);
+    other.method = "sorted";
+    EXPECT_EQ(diff(makeRow(10), other).notes.size(), 2u);
+    Row changed = makeRow(10);
+    changed.imageHash = 7;
+    EXPECT_EQ(diff(makeRow(10), changed).notes.size(), 1u);
+}
+
+TEST(RunDiff, OtherFiles_AreInputErrors) {
+    for (const char* text : {"", "[]", "{", "{\"rows\": 3}"})
+        try {
+            diffRuns(text, "old.json", run(makeRow(1)), "new.json", 0.25);
+            FAIL() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Input);
+            EXPECT_NE(std::string(error.what()).find("old.json"), std::string::npos);
+        }
+    // Members of unexpected kinds are skipped, not tripped over.
+    EXPECT_EQ(diffRuns(R"({"rows": [1, {"scene": "a"}], "shadows": 3, "machine": 1})", "a",
+                       run(makeRow(1)), "b", 0.25)
+                  .comparedRows,
+              0);
+}
+
+}  // namespace
+}  // namespace brume::bench
