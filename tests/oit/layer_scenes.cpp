@@ -2,6 +2,8 @@
 #include <oit/layer_scenes.hpp>
 #include <reference/reference.hpp>
 
+#include <cmath>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace brume::test {
@@ -83,6 +85,28 @@ dvec3 computeMean(const Image& image) {
 Image FamilyTest::renderWith(const render::PreparedScene& scene, const std::string& method,
                              const scene::Settings& settings) {
     return render(scene, {.method = method, .settings = settings}).image;
+}
+
+void FamilyTest::expectUnbiased(const render::PreparedScene& scene, scene::Settings settings,
+                                const Image& truth, double rounding) {
+    constexpr int kPatterns = 12;
+    const dvec3 expected = computeMean(truth);
+    dvec3 sum(0), square(0);
+    for (int pattern = 0; pattern < kPatterns; ++pattern) {
+        settings["pattern"] = std::to_string(pattern);
+        const dvec3 mean = computeMean(renderWith(scene, "stochastic", settings));
+        sum += mean;
+        square += mean * mean;
+    }
+    const dvec3 mean = sum / double(kPatterns);
+    const dvec3 variance = glm::max(square / double(kPatterns) - mean * mean, dvec3(0));
+    for (int c = 0; c < 3; ++c) {
+        const double deviation = std::sqrt(variance[c] / (kPatterns - 1));
+        RecordProperty(fmt::format("{}_{}", settings["estimator"], c),
+                       fmt::format("{:+.2e} of {:.2e}", mean[c] - expected[c], deviation));
+        // Eleven degrees of freedom, p = 1e-4 on each side.
+        EXPECT_NEAR(mean[c], expected[c], 5.45 * deviation + rounding) << settings["estimator"];
+    }
 }
 
 double FamilyTest::countTargetBits(const render::PreparedScene& scene, const std::string& method,

@@ -35,6 +35,10 @@ class FamilyTest : public RenderTest {
   protected:
     Image renderWith(const render::PreparedScene& scene, const std::string& method,
                      const scene::Settings& settings = {});
+    /// Student's t-test of method stochastic's mean over twelve patterns against that of `truth`.
+    /// `rounding`: by how much both may differ beside noise.
+    void expectUnbiased(const render::PreparedScene& scene, scene::Settings settings,
+                        const Image& truth, double rounding);
     /// Bits per pixel of the targets whose names begin with `prefix`, as --explain lists them.
     double countTargetBits(const render::PreparedScene& scene, const std::string& method,
                            const scene::Settings& settings, const std::string& prefix);
