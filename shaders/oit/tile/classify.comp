@@ -70,7 +70,7 @@ void main() {
     }
     needsLists = needsLists || (isMixed && (isSmooth || hasBoxes));
     uint needed = needsLists ? kClassLists
-                  : isMixed  ? kClassFewMix
+                  : isMixed  ? kClassMix
                   : hasBoxes ? kClassVolumes
                   : isEmpty  ? kClassEmpty
                              : kClassOrdered;
