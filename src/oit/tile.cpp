@@ -51,9 +51,13 @@ namespace {
 
 using frame::Access;
 
-/// Events that overlaps.comp keeps per pixel to put them in order, in rising order of cost.
-constexpr std::array<std::uint32_t, shader::kClassLists - shader::kClassMix> kMixWindows = {4, 12,
-                                                                                            24};
+/// What passes over mixtures keep to put it in order.
+struct MixWindows {
+    std::uint32_t events;   ///< of each pixel, in overlaps.comp
+    std::uint32_t spheres;  ///< of each tile, in order.comp
+};
+constexpr std::array<MixWindows, shader::kClassLists - shader::kClassMix> kMixWindows = {
+    {{4, 8}, {8, 12}, {12, 16}, {24, 48}}};
 
 const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
 const std::vector<gpu::Binding> kImages = {
@@ -118,8 +122,9 @@ class Tile final : public OitMethod {
         return sum;
     }
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
-    /// Lists the events of the group's tiles in the order of their middles.
-    void declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, Group& group);
+    /// Lists the spheres of mixed tiles in the orders in which the rays through their middles meet
+    /// them.
+    void declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::size_t window);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
                           bool isFirstWriter);
 
@@ -130,7 +135,8 @@ class Tile final : public OitMethod {
     MediaBins mBins;
     Group mAll, mOrdered, mVolumes;                // mAll: those that classify visits
     std::array<Group, kMixWindows.size()> mMixed;  // by the size of their window
-    gpu::ComputePipeline mClassifyBoxes, mOrder;
+    std::array<gpu::ComputePipeline, kMixWindows.size()> mOrders;
+    gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
     std::uint64_t mListTileCount = 0;
@@ -210,19 +216,18 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
 }
 
 void Tile::prepareMixed(std::size_t window) {
-    if (!mOrder) {
-        mOrder = makePipeline(
-            "order", choose(spv::oit_tile_order_comp, spv::oit_tile_order_comp_float64), {});
-        mSphereEnds = makeBuffer("sphere_ends", 4 * mBins.pairCount());
-    }
+    if (!mSphereEnds) mSphereEnds = makeBuffer("sphere_ends", 4 * mBins.pairCount());
     if (mMixed[window].pipeline) return;
-    const std::uint32_t size = kMixWindows[window];
+    const MixWindows& size = kMixWindows[window];
     const auto classIfSmall = static_cast<std::uint32_t>(shader::kClassMix + window + 1);
     mMixed[window].threadsPerTile = shader::kTileSize;
     mMixed[window].pipeline =
-        makePipeline(fmt::format("overlaps_{}", size).c_str(),
+        makePipeline(fmt::format("overlaps_{}", size.events).c_str(),
                      choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64),
-                     kImages, {size, classIfSmall, mNeeds.tinted || mNeeds.wholeShadows});
+                     kImages, {size.events, classIfSmall, mNeeds.tinted || mNeeds.wholeShadows});
+    mOrders[window] = makePipeline(
+        fmt::format("order_{}", size.spheres).c_str(),
+        choose(spv::oit_tile_order_comp, spv::oit_tile_order_comp_float64), {}, {size.spheres});
 }
 
 gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes, gpu::MemoryKind memory) const {
@@ -269,13 +274,13 @@ void Tile::prepare(const MeasureFunction& measure) {
     });
     planTiles();
     // Which tiles cannot hold what is open at a time?
-    for (Group& group : mMixed) {
-        if (group.tileCount == 0) continue;
-        measure([this, &group](frame::FrameBuilder& frame, const Inputs& inputs) {
+    for (std::size_t window = 0; window < mMixed.size(); ++window) {
+        if (mMixed[window].tileCount == 0) continue;
+        measure([this, window](frame::FrameBuilder& frame, const Inputs& inputs) {
             mBins.declareCount(frame, inputs);
             mBins.declareScatter(frame, inputs);
-            declareOrder(frame, inputs, group);
-            declareComposite(frame, inputs, group, true);
+            declareOrder(frame, inputs, window);
+            declareComposite(frame, inputs, mMixed[window], true);
             frame.addReadback("oit.tile.classes_read", frame.importBuffer(mClasses), mClassesRead);
         });
         planTiles();
@@ -378,18 +383,19 @@ void Tile::declareClear(frame::FrameBuilder& frame, const Inputs& inputs) {
     });
 }
 
-void Tile::declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, Group& group) {
-    frame::PassBuilder& pass = frame.addPass(group.pipeline.name() + ".order");
+void Tile::declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::size_t window) {
+    frame::PassBuilder& pass = frame.addPass(mOrders[window].name());
     mBins.declareReorders(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.writes(frame.importBuffer(mSphereEnds), Access::ComputeWrite);
     pass.record(
-        [this, inputs, &group](gpu::Commands& commands, const frame::PassResources& resources) {
-            commands.bindCompute(mOrder);
+        [this, inputs, window](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindCompute(mOrders[window]);
             bindFrame(commands, inputs);
             bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
+            const Group& group = mMixed[window];
             commands.pushConstants(makePush(group.tiles, group.tileCount));
             commands.dispatchThreads(group.tileCount, 64);
         });
@@ -434,10 +440,10 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     };
     for (Group* group : {&mOrdered, &mVolumes})
         if (group->tileCount > 0) composite(*group);
-    for (Group& group : mMixed) {
-        if (group.tileCount == 0) continue;
-        declareOrder(frame, inputs, group);
-        composite(group);
+    for (std::size_t window = 0; window < mMixed.size(); ++window) {
+        if (mMixed[window].tileCount == 0) continue;
+        declareOrder(frame, inputs, window);
+        composite(mMixed[window]);
     }
     if (mLists) mLists->declare(frame, inputs, false);
     frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);

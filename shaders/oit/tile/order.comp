@@ -7,15 +7,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "order.glsl"
 
+layout(constant_id = 6) const uint kWindow = 16u;  // spheres; the time grows with their number
+
 // Begins, and ends.
-float keys[2u * kOrderWindow];
-uint indices[2u * kOrderWindow];
+float keys[2u * kWindow];
+uint indices[2u * kWindow];
 
 // Puts a sphere into a window, which falls from its first to its last place, and returns the
 // smallest.
 uint exchange(uint window, float key, uint index) {
-    [[unroll]] for (uint i = 0u; i < kOrderWindow; ++i) {
-        uint slot = window * kOrderWindow + i;
+    [[unroll]] for (uint i = 0u; i < kWindow; ++i) {
+        uint slot = window * kWindow + i;
         bool isBefore = keys[slot] < key;
         float kept = isBefore ? key : keys[slot];
         uint keptIndex = isBefore ? index : indices[slot];
@@ -34,18 +36,18 @@ void main() {
     RealRay ray = makeMiddleRay(tile);
     uint first = UintArray(push.sphereOffsets).at[tile];
     uint size = UintArray(push.sphereOffsets).at[tile + 1u] - first;
-    [[unroll]] for (uint i = 0u; i < 2u * kOrderWindow; ++i) {
+    [[unroll]] for (uint i = 0u; i < 2u * kWindow; ++i) {
         keys[i] = -3e38;
         indices[i] = 0u;
     }
-    for (uint k = 0u; k < size + kOrderWindow; ++k) {
+    for (uint k = 0u; k < size + kWindow; ++k) {
         uint index = UintArray(push.spherePairs).at[first + min(k, size - 1u)];
         SphereData sphere = spheres[index];
         bool isThere = k < size;
         uint entered = exchange(0u, isThere ? middleDistance(ray, sphere, false) : 3e38, index);
         uint left = exchange(1u, isThere ? middleDistance(ray, sphere, true) : 3e38, index);
-        if (k < kOrderWindow) continue;
-        UintArray(push.spherePairs).at[first + k - kOrderWindow] = entered;
-        UintArray(push.sphereEnds).at[first + k - kOrderWindow] = left;
+        if (k < kWindow) continue;
+        UintArray(push.spherePairs).at[first + k - kWindow] = entered;
+        UintArray(push.sphereEnds).at[first + k - kWindow] = left;
     }
 }
