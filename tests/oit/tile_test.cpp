@@ -102,8 +102,8 @@ TEST_F(Tile, ConstantSpheresThatMix_AreExactWithoutLists) {
     s.scene.camera.height = 2;
     expectExact(s, "orthographic");
     // Farther out of order than the largest window puts right.
-    expectExact(makeCloud(60, 3, Profile::Constant, 3), "sixty at a time");
-    EXPECT_GT(countListTiles(makeCloud(60, 3, Profile::Constant, 3)), 0u);
+    expectExact(makeCloud(240, 3, Profile::Constant, 3), "hundreds at a time");
+    EXPECT_GT(countListTiles(makeCloud(240, 3, Profile::Constant, 3)), 0u);
 }
 
 TEST_F(Tile, SpheresOfTwoSourcesThatOverlap_GetListsAndAreExact) {
