@@ -19,4 +19,12 @@ void addExactly(inout vec3 hi, inout vec3 lo, vec3 value) {
     lo += error;
 }
 
+void addExactly(inout float hi, inout float lo, float value) {
+    precise float sum = hi + value;
+    precise float rounded = sum - hi;
+    precise float error = (hi - (sum - rounded)) + (value - rounded);
+    hi = sum;
+    lo += error;
+}
+
 #endif

@@ -26,6 +26,7 @@ struct Needs {
     bool textured = false;            ///< some material has a texture
     bool glossy = false;              ///< glass that mirrors background and lights
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
+    bool tinted = false;     ///< spheres have different tints
     bool oneMedium = false;  ///< one medium and one tint in the whole scene
     bool oneSource = false;  ///< and light that is the same everywhere: what media send depends on
                              ///< nothing but their summed depth

@@ -286,6 +286,12 @@ void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pas
     if (mBoxSort) pass.reads(frame.importBuffer(mSortedBoxes), Access::ComputeRead);
 }
 
+void MediaBins::declareReorders(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {
+    for (const gpu::Buffer* buffer : {&mSortedSpheres, &mSpheres.offsets})
+        pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
+    pass.readsWrites(frame.importBuffer(mSpheres.pairs), Access::ComputeWrite);
+}
+
 std::uint64_t MediaBins::bytes() const {
     std::uint64_t sum =
         mKeys.bytes() + mValues.bytes() + mSortedSpheres.bytes() + mLimits.bytes();

@@ -34,6 +34,8 @@ class MediaBins {
 
     /// Must be declared as read by passes that use the addresses below.
     void declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const;
+    /// For passes that bring the tiles' lists of spheres into another order.
+    void declareReorders(frame::FrameBuilder& frame, frame::PassBuilder& pass) const;
 
     /// What the lists' indices mean.
     const gpu::Buffer& sortedSpheres() const { return mSortedSpheres; }

@@ -7,12 +7,14 @@
 //         overlap).
 // Differs: media have extent; whether composition in the order of a tile's list is exact is not
 //         assumed but found out at each pixel (classify.comp). Where media of constant density mix,
-//         a few intervals are kept in registers and crossed as soon as their order is certain
-//         (overlaps.comp). Other tiles, such as those with surfaces, get the sorted lists of each
-//         pixel (pixel_lists.hpp): nothing is dropped.
+//         pixels go through their ends in the order of the tile's middle, which a small window in
+//         registers puts right for each (overlaps.comp). Other tiles, such as those with surfaces,
+//         get the sorted lists of each pixel (pixel_lists.hpp): nothing is dropped.
 // Limits: with epsilon > 0 a pixel stops at that transmittance; the error is at most that times the
-//         largest radiance that media or the background may still send (errorBound()).
-// Cost: 4 bytes per pair of tile and medium; nothing per pixel but where tiles need lists.
+//         largest radiance that media or the background may still send (errorBound()). Without
+//         `overlap`, spheres that mix are wrong, and nobody finds out by how much.
+// Cost: 4 bytes per pair of tile and medium, 8 where media mix; nothing per pixel but where tiles
+//         need lists.
 #include <oit/bindings.hpp>
 #include <oit/pixel_lists.hpp>
 
@@ -31,12 +33,17 @@
 #include <spv/oit/tile/lit_volumes.comp.float64.hpp>
 #include <spv/oit/tile/lit_volumes.comp.hpp>
 #include <spv/oit/tile/mark_surfaces.frag.hpp>
+#include <spv/oit/tile/order.comp.float64.hpp>
+#include <spv/oit/tile/order.comp.hpp>
 #include <spv/oit/tile/overlaps.comp.float64.hpp>
 #include <spv/oit/tile/overlaps.comp.hpp>
 #include <spv/oit/tile/volumes.comp.float64.hpp>
 #include <spv/oit/tile/volumes.comp.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 
@@ -45,11 +52,23 @@ namespace {
 
 using frame::Access;
 
+/// What passes over mixtures keep to put it in order.
+struct MixWindows {
+    std::uint32_t events;   ///< of each pixel, in overlaps.comp
+    std::uint32_t spheres;  ///< of each tile, in order.comp
+};
+constexpr std::array<MixWindows, shader::kClassLists - shader::kClassMix> kMixWindows = {
+    {{4, 8}, {8, 12}, {12, 16}, {16, 24}, {24, 48}}};
+
 const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
+const std::vector<gpu::Binding> kImages = {
+    {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+    {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
 
 struct Settings {
     float epsilon = 1.f / 1024;                 ///< transmittance at which a pixel stops; 0: exact
     std::uint64_t budgetBytes = 1024ull << 20;  ///< for lists
+    bool overlap = true;                        ///< false: spheres count as one behind the other
 };
 
 class Tile final : public OitMethod {
@@ -75,6 +94,13 @@ class Tile final : public OitMethod {
     gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
                                       const std::vector<gpu::Binding>& own,
                                       const std::vector<std::uint32_t>& specialization = {}) const;
+    /// Double precision shows where media are dense, and not beside what an early stop leaves out.
+    std::span<const std::uint32_t> choose(std::span<const std::uint32_t> float32,
+                                          std::span<const std::uint32_t> float64) const {
+        return mSettings.epsilon == 0 && mDevice->features().shaderFloat64 ? float64 : float32;
+    }
+    /// Large shaders that few scenes need: made when there are tiles for them.
+    void prepareMixed(std::size_t window);
     gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
                            gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
     shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
@@ -85,14 +111,22 @@ class Tile final : public OitMethod {
     bool canComposite() const {
         return !mNeeds.varyingLight && (mNeeds.oneSource || mNeeds.media <= shader::kTileMedia);
     }
-    /// Bricks one behind the other, in one go: not where each look at a light walks its casters, which
-    /// may take more loops than devices grant an invocation.
+    /// Bricks one behind the other, in one go: not where each look at a light walks its casters,
+    /// which may take more loops than devices grant an invocation.
     bool canLightVolumes() const {
         return mNeeds.boxes && mNeeds.oneMedium && !mNeeds.oneSource &&
                (mNeeds.shadowStores & shader::kStoreExact) == 0;
     }
     void planTiles();
+    std::uint32_t countMixed() const {
+        std::uint32_t sum = 0;
+        for (const Group& group : mMixed) sum += group.tileCount;
+        return sum;
+    }
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
+    /// Lists the spheres of mixed tiles in the orders in which the rays through their middles meet
+    /// them.
+    void declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::size_t window);
     void declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
                           bool isFirstWriter);
 
@@ -101,12 +135,15 @@ class Tile final : public OitMethod {
     Needs mNeeds;
     std::uint32_t mTileCount;
     MediaBins mBins;
-    Group mAll, mOrdered, mVolumes, mFewMix, mManyMix;  // mAll: those that classify visits
+    Group mAll, mOrdered, mVolumes;                // mAll: those that classify visits
+    std::array<Group, kMixWindows.size()> mMixed;  // by the size of their window
+    std::array<gpu::ComputePipeline, kMixWindows.size()> mOrders;
     gpu::ComputePipeline mClassifyBoxes;
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
     std::uint64_t mListTileCount = 0;
     gpu::Buffer mClasses, mClassesRead, mCounters, mCountersRead;
+    gpu::Buffer mSphereEnds;       ///< uint[pairs], if media mix
     bool mIsScreenCovered = true;  // by the tiles of one group
 };
 
@@ -116,46 +153,27 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
       mNeeds(inputs.needs),
       mTileCount(countTiles(inputs.extent)),
       mBins(device, "oit.tile", inputs, true) {
-    // Double precision shows where media are dense, and not beside what an early stop leaves out.
-    const bool isFine = settings.epsilon == 0 && device.features().shaderFloat64;
-    const auto choose = [&](std::span<const std::uint32_t> float32,
-                            std::span<const std::uint32_t> float64) {
-        return isFine ? float64 : float32;
-    };
-    const std::vector<gpu::Binding> images = {
-        {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-        {shader::kBindingTileResult, gpu::BindingType::StorageImage}};
-    mAll = {
-        makePipeline("classify",
-                     choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64), {}),
-        shader::kTileSize};
+    mAll = {makePipeline("classify",
+                         choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64),
+                         {}, {mSettings.overlap}),
+            shader::kTileSize};
     mOrdered = {
         makePipeline("composite",
                      choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
-                     images),
+                     kImages),
         shader::kTileSize};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
-    if (!mNeeds.oneSource && canComposite()) {
-        const auto overlaps =
-            choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64);
-        mFewMix = {makePipeline("few_overlaps", overlaps, images,
-                                {shader::kFewIntervals, shader::kClassManyMix}),
-                   pixels};
-        mManyMix = {makePipeline("many_overlaps", overlaps, images,
-                                 {shader::kManyIntervals, shader::kClassLists}),
-                    pixels};
-    }
     if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {
             makePipeline("volumes",
                          choose(spv::oit_tile_volumes_comp, spv::oit_tile_volumes_comp_float64),
-                         images),
+                         kImages),
             pixels};
     } else if (canLightVolumes()) {
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
                                         spv::oit_tile_lit_volumes_comp_float64),
-                                 images),
+                                 kImages),
                     pixels};
         mClassifyBoxes = makePipeline(
             "classify_boxes",
@@ -199,6 +217,21 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
              .constants = lightingConstants(mNeeds)}};
 }
 
+void Tile::prepareMixed(std::size_t window) {
+    if (!mSphereEnds) mSphereEnds = makeBuffer("sphere_ends", 4 * mBins.pairCount());
+    if (mMixed[window].pipeline) return;
+    const MixWindows& size = kMixWindows[window];
+    const auto classIfSmall = static_cast<std::uint32_t>(shader::kClassMix + window + 1);
+    mMixed[window].threadsPerTile = shader::kTileSize;
+    mMixed[window].pipeline =
+        makePipeline(fmt::format("overlaps_{}", size.events).c_str(),
+                     choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64),
+                     kImages, {size.events, classIfSmall, mNeeds.tinted || mNeeds.wholeShadows});
+    mOrders[window] = makePipeline(
+        fmt::format("order_{}", size.spheres).c_str(),
+        choose(spv::oit_tile_order_comp, spv::oit_tile_order_comp_float64), {}, {size.spheres});
+}
+
 gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes, gpu::MemoryKind memory) const {
     return {*mDevice,
             {.name = std::string("oit.tile.") + stage,
@@ -216,6 +249,7 @@ shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCoun
     return {.tiles = tiles.deviceAddress(),
             .sphereOffsets = mBins.spheres().offsets,
             .spherePairs = mBins.spheres().pairs,
+            .sphereEnds = mSphereEnds ? mSphereEnds.deviceAddress() : 0,
             .boxOffsets = mBins.boxes().offsets,
             .boxPairs = mBins.boxes().pairs,
             .classes = mClasses.deviceAddress(),
@@ -242,12 +276,13 @@ void Tile::prepare(const MeasureFunction& measure) {
     });
     planTiles();
     // Which tiles cannot hold what is open at a time?
-    for (Group* group : {&mFewMix, &mManyMix}) {
-        if (group->tileCount == 0) continue;
-        measure([this, group](frame::FrameBuilder& frame, const Inputs& inputs) {
+    for (std::size_t window = 0; window < mMixed.size(); ++window) {
+        if (mMixed[window].tileCount == 0) continue;
+        measure([this, window](frame::FrameBuilder& frame, const Inputs& inputs) {
             mBins.declareCount(frame, inputs);
             mBins.declareScatter(frame, inputs);
-            declareComposite(frame, inputs, *group, true);
+            declareOrder(frame, inputs, window);
+            declareComposite(frame, inputs, mMixed[window], true);
             frame.addReadback("oit.tile.classes_read", frame.importBuffer(mClasses), mClassesRead);
         });
         planTiles();
@@ -304,17 +339,17 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
 }
 
 void Tile::planTiles() {
-    std::vector<std::uint32_t> empty, ordered, volumes, fewMix, manyMix, lists;
+    std::vector<std::uint32_t> empty, ordered, volumes, lists;
+    std::array<std::vector<std::uint32_t>, kMixWindows.size()> mixed;
     const auto classes = mClassesRead.mappedAs<std::uint32_t>();
     for (std::uint32_t tile = 0; tile < mTileCount; ++tile) {
         if (classes[tile] == shader::kClassEmpty)
             empty.push_back(tile);
         else if (classes[tile] == shader::kClassOrdered && canComposite())
             ordered.push_back(tile);
-        else if (classes[tile] == shader::kClassFewMix && canComposite())
-            fewMix.push_back(tile);
-        else if (classes[tile] == shader::kClassManyMix)
-            manyMix.push_back(tile);
+        else if (classes[tile] >= shader::kClassMix && classes[tile] < shader::kClassLists &&
+                 canComposite())
+            mixed[classes[tile] - shader::kClassMix].push_back(tile);
         else if (classes[tile] == shader::kClassVolumes && mVolumes.pipeline)
             volumes.push_back(tile);
         else
@@ -325,8 +360,9 @@ void Tile::planTiles() {
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
     setTiles(mOrdered, ordered);
     setTiles(mVolumes, volumes);
-    setTiles(mFewMix, fewMix);
-    setTiles(mManyMix, manyMix);
+    for (std::size_t i = 0; i < mixed.size(); ++i) setTiles(mMixed[i], mixed[i]);
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+        if (!mixed[i].empty()) prepareMixed(i);
     mAll.tiles = {};  // not visited again
     mListTileCount = lists.size();
     mLists.reset();
@@ -349,12 +385,31 @@ void Tile::declareClear(frame::FrameBuilder& frame, const Inputs& inputs) {
     });
 }
 
+void Tile::declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::size_t window) {
+    frame::PassBuilder& pass = frame.addPass(mOrders[window].name());
+    mBins.declareReorders(frame, pass);
+    pass.reads(inputs.opaqueT, Access::ComputeSample);
+    pass.writes(frame.importBuffer(mSphereEnds), Access::ComputeWrite);
+    pass.record(
+        [this, inputs, window](gpu::Commands& commands, const frame::PassResources& resources) {
+            commands.bindCompute(mOrders[window]);
+            bindFrame(commands, inputs);
+            bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
+            commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
+                          *inputs.texelSampler);
+            const Group& group = mMixed[window];
+            commands.pushConstants(makePush(group.tiles, group.tileCount));
+            commands.dispatchThreads(group.tileCount, 64);
+        });
+}
+
 void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Group& group,
                             bool isFirstWriter) {
     frame::PassBuilder& pass = frame.addPass(group.pipeline.name());
     mBins.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
+    if (mSphereEnds) pass.reads(frame.importBuffer(mSphereEnds), Access::ComputeRead);
     for (const gpu::Buffer* buffer : {&mCounters, &mClasses})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (isFirstWriter)
@@ -381,10 +436,16 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
     bool isFirstWriter = mIsScreenCovered;
-    for (Group* group : {&mOrdered, &mVolumes, &mFewMix, &mManyMix}) {
-        if (group->tileCount == 0) continue;
-        declareComposite(frame, inputs, *group, isFirstWriter);
+    const auto composite = [&](Group& group) {
+        declareComposite(frame, inputs, group, isFirstWriter);
         isFirstWriter = false;
+    };
+    for (Group* group : {&mOrdered, &mVolumes})
+        if (group->tileCount > 0) composite(*group);
+    for (std::size_t window = 0; window < mMixed.size(); ++window) {
+        if (mMixed[window].tileCount == 0) continue;
+        declareOrder(frame, inputs, window);
+        composite(mMixed[window]);
     }
     if (mLists) mLists->declare(frame, inputs, false);
     frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);
@@ -397,8 +458,7 @@ std::map<std::string, std::uint64_t> Tile::counters() {
     counters["pairs"] = mBins.pairCount();
     counters["tilesOrdered"] = mOrdered.tileCount;
     counters["tilesVolumes"] = mVolumes.tileCount;
-    counters["tilesFewMix"] = mFewMix.tileCount;
-    counters["tilesManyMix"] = mManyMix.tileCount;
+    counters["tilesMixed"] = countMixed();
     counters["tilesLists"] = mListTileCount;
     counters["exhausted"] += own.exhausted;
     counters["stopped"] += own.stopped;
@@ -406,6 +466,7 @@ std::map<std::string, std::uint64_t> Tile::counters() {
 }
 
 std::optional<double> Tile::errorBound() {
+    if (!mSettings.overlap) return std::nullopt;
     const double own =
         std::bit_cast<float>(mCountersRead.mappedAs<shader::TileCounters>()[0].bound);
     return mLists ? std::max(own, mLists->errorBound()) : own;
@@ -414,9 +475,9 @@ std::optional<double> Tile::errorBound() {
 std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
-    bytes["bins"] = mBins.bytes();
-    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mFewMix.tiles.bytes() +
-                     mManyMix.tiles.bytes() + mClasses.bytes();
+    bytes["bins"] = mBins.bytes() + mSphereEnds.bytes();
+    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
+    for (const Group& group : mMixed) bytes["tiles"] += group.tiles.bytes();
     return bytes;
 }
 
@@ -435,6 +496,9 @@ const MethodInfo& info() {
         .limits = "exact with epsilon = 0; else off by at most epsilon times the radiance behind",
         .settings = {{"epsilon", "0 .. 0.5", "0.0009765625",
                       "transmittance at which a pixel stops; 0: never"},
+                     {"overlap", "true, false", "true",
+                      "whether spheres mix where they overlap; false, for billboards that do not: "
+                      "faster, and without an error bound"},
                      {"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for lists; beyond it, tiles are rendered in bands"}}};
     return kInfo;
@@ -449,6 +513,7 @@ std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
     values.epsilon = static_cast<float>(reader.number("epsilon", values.epsilon, 0, 0.5));
     values.budgetBytes = static_cast<std::uint64_t>(reader.integer("budgetMiB", 1024, 1, 1 << 20))
                          << 20;
+    values.overlap = reader.boolean("overlap", values.overlap);
     reader.finish();
     return std::make_unique<Tile>(device, inputs, values);
 }

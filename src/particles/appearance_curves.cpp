@@ -112,4 +112,11 @@ float largestTint(const scene::Effect& effect) {
     return largest;
 }
 
+std::optional<vec3> constantTint(const scene::Effect& effect) {
+    const shader::AppearanceParameters p = appearanceParameters(effect);
+    for (std::uint32_t i = 0; i < p.segmentCount; ++i)
+        if (p.segments[i].tintSlope != vec3(0)) return std::nullopt;
+    return max(p.tint, vec3(0));
+}
+
 }  // namespace brume::particles

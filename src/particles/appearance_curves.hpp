@@ -5,6 +5,8 @@
 #include <shaders/particles/effect.h>
 #include <scene/effect.hpp>
 
+#include <optional>
+
 namespace brume::particles {
 
 /// Throws an input Error if the curves have too many keys.
@@ -12,6 +14,9 @@ shader::AppearanceParameters appearanceParameters(const scene::Effect& effect);
 
 /// The largest component that the tint ever has, that of the temperature included.
 float largestTint(const scene::Effect& effect);
+
+/// The tint of all particles, if it is the same at every age.
+std::optional<vec3> constantTint(const scene::Effect& effect);
 
 /// The value of a curve with at least one key.
 template <typename T>

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
 namespace brume::render {
@@ -51,15 +52,29 @@ void addVolumeNeeds(const PreparedScene& prepared, oit::Needs& needs) {
     }
 }
 
+/// The tints of spheres, of particles too: at most two, as more say no more.
+std::set<std::array<float, 3>> findTints(const PreparedScene& prepared) {
+    std::set<std::array<float, 3>> tints;
+    const auto add = [&](const vec3& tint) {
+        if (tints.size() < 2) tints.insert({tint.x, tint.y, tint.z});
+    };
+    for (const scene::MediumSphere& sphere : prepared.spheres) add(sphere.tint);
+    for (const scene::EffectInstance& instance : prepared.scene.effects) {
+        if (instance.effect.surface) continue;
+        const std::optional<vec3> tint = particles::constantTint(instance.effect);
+        add(tint.value_or(vec3(1)));
+        if (!tint) add(vec3(0));
+    }
+    return tints;
+}
+
 /// Whether one medium and one tint are all there is.
 bool hasOneMedium(const PreparedScene& prepared) {
-    if (!prepared.scene.effects.empty()) return false;
     std::set<std::uint32_t> media;
-    std::set<std::array<float, 3>> tints;
-    for (const scene::MediumSphere& sphere : prepared.spheres) {
-        media.insert(sphere.medium);
-        tints.insert({sphere.tint.x, sphere.tint.y, sphere.tint.z});
-    }
+    std::set<std::array<float, 3>> tints = findTints(prepared);
+    for (const scene::MediumSphere& sphere : prepared.spheres) media.insert(sphere.medium);
+    for (const scene::EffectInstance& instance : prepared.scene.effects)
+        if (!instance.effect.surface) media.insert(instance.medium);
     for (std::size_t i = 0; i < prepared.volumes.size(); ++i) {
         if (prepared.volumes[i].isEmpty()) continue;
         media.insert(prepared.scene.volumes[i].medium);
@@ -136,6 +151,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     }
     if (needs.shadowStores != 0) needs.shadowing = shadowing;
     needs.wholeShadows = (needs.shadowing & shader::kShadowingWhole) != 0;
+    needs.tinted = findTints(prepared).size() > 1;
     needs.oneMedium = hasOneMedium(prepared);
     needs.oneSource = needs.oneMedium && !needs.varyingLight && !needs.wholeShadows;
     needs.largestTint = findLargestTint(prepared);
@@ -161,6 +177,7 @@ std::string describe(const oit::Needs& needs) {
            line("textured", needs.textured, "materials with textures") +
            line("glossy", needs.glossy, "glass mirrors background and lights") +
            line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
+           line("tinted", needs.tinted, "spheres of different tints") +
            line("oneMedium", needs.oneMedium, "one medium and tint in the whole scene") +
            line("oneSource", needs.oneSource, "and the same light everywhere: order is no matter") +
            line("orthographic", needs.orthographic, "parallel rays") +

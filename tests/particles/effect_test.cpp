@@ -81,6 +81,18 @@ TEST(Appearance, LargestTint_IsThatOfTheHottestMoment) {
     EXPECT_FLOAT_EQ(largestTint(effect), static_cast<float>(hottest));
 }
 
+TEST(Appearance, ConstantTint_IsWhatAllParticlesHave) {
+    scene::Effect effect = burstEffect(1);
+    EXPECT_EQ(constantTint(effect), vec3(1));
+    effect.tint.keys = {{0, dvec3(0.5, 1, 2)}, {1, dvec3(0.5, 1, 2)}};
+    EXPECT_EQ(constantTint(effect), vec3(0.5, 1, 2));
+    effect.tint.keys[1].second.x = 0.6;
+    EXPECT_EQ(constantTint(effect), std::nullopt);
+    effect.tint.keys = {{0, dvec3(1)}};
+    effect.temperature.keys = {{0, 1200}, {1, 1000}};
+    EXPECT_EQ(constantTint(effect), std::nullopt) << "it cools";
+}
+
 TEST(CpuSimulation, DepthCollider_IsRefusedAtItsPlace) {
     scene::Effect effect = burstEffect(1);
     effect.modules = {moduleSettings("collide_depth")};

@@ -9,6 +9,7 @@ BRUME_STRUCTS_BEGIN
 struct TilePush {
     uint64_t tiles;                       // uint[tileCount]: which tiles to visit
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
+    uint64_t sphereEnds;  // uint[], the pairs in the order in which tiles with mixtures leave them
     uint64_t boxOffsets, boxPairs;
     uint64_t classes;   // uint[tiles], classify: largest class that a pixel needs
     uint64_t counters;  // TileCounters
@@ -21,9 +22,9 @@ struct TilePush {
 BRUME_CONST uint kClassEmpty = 0u;    // no medium
 BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one common source
 BRUME_CONST uint kClassVolumes = 2u;  // bricks and boxes of one medium; spheres of one source too
-BRUME_CONST uint kClassFewMix = 3u;   // spheres of constant density that mix, few at a time
-BRUME_CONST uint kClassManyMix = 4u;  // more at a time
-BRUME_CONST uint kClassLists = 5u;    // everything else: sorted lists of each pixel
+BRUME_CONST uint kClassMix = 3u;      // spheres of constant density that mix: with the first of the
+                                      // sizes of windows, with the second ...
+BRUME_CONST uint kClassLists = 8u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {
     uint stopped;    // invocations that stopped before their last medium
@@ -33,10 +34,6 @@ struct TileCounters {
 
 // Media whose source the composite works out once per ray.
 BRUME_CONST uint kTileMedia = 4u;
-
-// Intervals that overlaps.comp keeps at a time: its time grows with their number.
-BRUME_CONST uint kFewIntervals = 4u;
-BRUME_CONST uint kManyIntervals = 24u;
 
 // Longer lists are left to the sorted lists of each pixel: some devices silently end all loops of
 // an invocation after 65 535 iterations.
@@ -48,6 +45,6 @@ BRUME_CONST uint kBindingTileResult = 8u;  // RGBA32F
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::TilePush) == 72);
+static_assert(sizeof(brume::shader::TilePush) == 80);
 #endif
 #endif
