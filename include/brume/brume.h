@@ -176,7 +176,7 @@ typedef struct BrumeSceneCreateInfo {
     const char* file; /**< a scene file; its camera and image size are not used */
     const char* text; /**< the text of one instead */
     const char* directory; /**< what paths in `text` are relative to; null: the current directory */
-    const char* method;    /**< null: the scene's own, or "sorted" where that is not for hosts */
+    const char* method;    /**< null: the file's own, "sorted" without a file or with `inside` */
     const char* settings;  /**< of the method, "key=value key=value"; may be null */
     BrumeInside inside; /**< for brumeCmdDraw(); the method is "sorted" or "unordered" then */
     uint32_t reserved; /**< 0 */
@@ -302,6 +302,11 @@ typedef struct BrumeCounters {
     uint64_t sceneBytes;         /**< device memory of the scene */
     uint64_t contextBytes;       /**< device memory of all scenes of the context */
     uint64_t deviceAllocations;  /**< objects with memory, of the context, that live now */
+    /** Of the last finished frame, methods "tile" and "linked_list": what had no room in the memory
+     *  that is reserved for lists. Such a frame shows the nearest media of each pixel. The next
+     *  brumePrepare() reserves more; brumeCmd functions never do. */
+    uint64_t methodDropped;
+    uint64_t methodBytesWanted; /**< that all of it would have taken */
 } BrumeCounters;
 
 /** The last error of this thread as one line: what was being done, where, what is wrong, what is

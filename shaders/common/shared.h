@@ -14,6 +14,7 @@ namespace brume::shader {
 using glm::mat3;
 using glm::mat4x3;
 using glm::uvec2;
+using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;

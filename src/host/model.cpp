@@ -19,15 +19,12 @@ namespace brume::host {
 namespace {
 
 constexpr const char* kCreate = "brumeCreateScene";
-// Without measuring first, these do not know how much memory they want.
-constexpr const char* kFallbackMethod = "sorted";
+// Of scenes that come from no file, and inside of the host's rendering.
+constexpr const char* kDefaultMethod = "sorted";
 
 double largestExtinction(const scene::Medium& medium) {
     return std::max({medium.extinction.x, medium.extinction.y, medium.extinction.z});
 }
-
-/// Methods that plan a frame from one before it, for which they wait.
-bool needsMeasuring(std::string_view method) { return method == "tile" || method == "linked_list"; }
 
 }  // namespace
 
@@ -123,8 +120,8 @@ void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
                                 mOptions.method, key));
     } else if (info.method) {
         mOptions.method = info.method;
-    } else if (needsMeasuring(own.method)) {
-        mOptions.method = kFallbackMethod;
+    } else if ((!info.file && !info.text) || info.inside != BRUME_INSIDE_NOTHING) {
+        mOptions.method = kDefaultMethod;
     } else {
         mOptions.method = own.method;
         if (!info.settings) mOptions.settings = own.settings;
@@ -139,13 +136,12 @@ void Model::chooseMethod(const BrumeSceneCreateInfo& info) {
     std::string allowed;
     bool isKnown = false;
     for (const oit::MethodInfo& method : oit::listMethods()) {
-        if (needsMeasuring(method.name)) continue;
         allowed += (allowed.empty() ? "" : ", ") + std::string(method.name);
         isKnown = isKnown || method.name == mOptions.method;
     }
     if (!isKnown)
         throw refuse(kCreate, "method",
-                     fmt::format("\"{}\" is none that works within a host's frame, allowed are {}",
+                     fmt::format("\"{}\" is unknown, allowed are {}",
                                  mOptions.method, allowed));
 }
 

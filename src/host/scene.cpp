@@ -113,9 +113,7 @@ void Scene::make(const Made& wanted) {
     if (inside != BRUME_INSIDE_NOTHING) composer->callers.color = wanted.color.format;
     if (inside == BRUME_INSIDE_COLOR_DEPTH) composer->callers.depth = wanted.depth.format;
     composer->addMethod();
-    composer->method->prepare([](const oit::OitMethod::DeclareFunction&) {
-        throw AssertionError("a method within a host's frame wants to measure");
-    });
+    composer->method->prepare({});
     mBackdrop = std::make_unique<render::Backdrop>(device, wanted.color.format);
     mColor = gpu::Image({.name = "host.color",
                          .format = wanted.color.format,
@@ -184,7 +182,13 @@ void Scene::forgetFrame() {
     mMade = {};
 }
 
-void Scene::prepare(const BrumeView& view) { build("brumePrepare", view); }
+void Scene::prepare(const BrumeView& view) {
+    build("brumePrepare", view);
+    if (!mComposer->method->lacksMemory()) return;
+    mRenderFrame.reset();
+    mComposer->method->prepare({});
+    declareFrames();
+}
 
 void Scene::simulate(VkCommandBuffer commandBuffer, const BrumeStep& step) {
     record("brumeCmdSimulate", [&] {
@@ -355,6 +359,13 @@ BrumeCounters Scene::counters() const {
     counters.sphereSlots = inputs.sphereCount;
     counters.boxes = inputs.boxCount;
     counters.ticksBehind = mComposer->effects.ticksBehind();
+    const auto ofMethod = mComposer->method->counters();
+    const auto countOf = [&](const char* name) {
+        const auto found = ofMethod.find(name);
+        return found == ofMethod.end() ? 0 : found->second;
+    };
+    counters.methodDropped = countOf("dropped") + countOf("exhausted");
+    counters.methodBytesWanted = countOf("listBytesWanted") + 4 * countOf("pairs");
     if (mComposer->shadows) counters.shadowPairsDropped = mComposer->shadows->droppedPairs();
     counters.sceneBytes = mRing.bytes() + mParticlePool.bytes() + mRenderPool.bytes();
     for (const auto& [kind, bytes] : mComposer->bytes()) counters.sceneBytes += bytes;

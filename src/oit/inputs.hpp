@@ -13,6 +13,7 @@ namespace brume::oit {
 /// What a scene uses. Methods specialise their pipelines by it and allocate for nothing else.
 struct Needs {
     bool spheres = false;
+    bool uniformSpheres = false;      ///< some are of constant density
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes

@@ -16,8 +16,8 @@
 //         that cap loop iterations do in one dispatch (counter "exhausted" > 0: not exact there).
 //         Without shaderFloat64, media with optical depths of order 1 within 1e-6 of their distance
 //         (sheets, rims) are off by up to 1e-4.
-// Cost: 8 bytes per interval and surface, 52 more per surface, 16 per pixel and band; where lists
-//         need several rounds to resolve, 216 more per pixel and band.
+// Cost: 8 bytes per interval and surface, 52 more per surface, in blocks of 64 per tile; 8 per pixel,
+//         16 with surfaces; where lists need several rounds to resolve, 216 more per pixel.
 #include <oit/pixel_lists.hpp>
 
 #include <numeric>
@@ -28,20 +28,26 @@ namespace {
 
 class LinkedList final : public OitMethod {
   public:
-    LinkedList(gpu::Device& device, const Inputs& inputs, std::uint64_t budgetBytes)
-        : mBins(device, "oit.linked_list", inputs),
+    LinkedList(gpu::Device& device, const Inputs& inputs, std::uint64_t budgetBytes,
+               bool isEveryFrame)
+        : mIsEveryFrame(isEveryFrame),
+          mTileCount(countTiles(inputs.extent)),
+          mBins(device, "oit.linked_list", inputs),
           mLists(device, "oit.linked_list", inputs.needs, budgetBytes, mBins) {
-        std::vector<std::uint32_t> tiles(countTiles(inputs.extent));
+        std::vector<std::uint32_t> tiles(mTileCount);
         std::iota(tiles.begin(), tiles.end(), 0u);
-        mLists.setTiles(tiles, countTiles(inputs.extent));
+        mLists.setTiles(tiles, mTileCount);
     }
 
     const MethodInfo& info() const override;
 
     void prepare(const MeasureFunction& measure) override {
+        if (!measure || mIsEveryFrame) {
+            reserve();
+            return growBy(*this, measure, [this] { reserve(); });
+        }
         measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
             mBins.declareCount(frame, inputs);
-            mBins.declareTotals(frame);
         });
         mBins.allocate();
         mLists.prepare(measure);
@@ -53,7 +59,16 @@ class LinkedList final : public OitMethod {
         mLists.declare(frame, inputs, true);
     }
 
-    std::map<std::string, std::uint64_t> counters() override { return mLists.counters(); }
+    std::map<std::string, std::uint64_t> counters() override {
+        auto counters = mLists.counters();
+        counters["dropped"] += mBins.droppedPairs();
+        return counters;
+    }
+
+    bool lacksMemory() override {
+        const auto counted = counters();
+        return counted.at("dropped") + counted.at("exhausted") > 0;
+    }
 
     std::optional<double> errorBound() override { return 0; }
 
@@ -64,6 +79,16 @@ class LinkedList final : public OitMethod {
     }
 
   private:
+    // Where nothing can be measured, to begin with: 4 KiB, eight entries a pixel.
+    static constexpr std::uint32_t kBlocksPerTile = 64;
+
+    void reserve() {
+        mBins.reserve(std::uint64_t{mTileCount} * kReservedPairsPerTile);
+        mLists.reserve(kBlocksPerTile);
+    }
+
+    bool mIsEveryFrame;
+    std::uint32_t mTileCount;
     MediaBins mBins;
     PixelLists mLists;
 };
@@ -82,7 +107,8 @@ const MethodInfo& info() {
         .limits = "one screen tile's lists must fit into the budget",
         .settings = {{"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for list entries and surface records; beyond it, the screen is "
-                      "rendered in bands"}}};
+                      "rendered in bands"},
+                     kEveryFrameInfo}};
     return kInfo;
 }
 
@@ -92,9 +118,10 @@ std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
                                   const scene::Settings& settings) {
     scene::SettingsReader reader(settings, "setting up method linked_list");
     const auto budgetMiB = reader.integer("budgetMiB", 1024, 1, 1 << 20);
+    const bool isEveryFrame = reader.boolean(std::string(kEveryFrameInfo.name), false);
     reader.finish();
-    return std::make_unique<LinkedList>(device, inputs,
-                                        static_cast<std::uint64_t>(budgetMiB) << 20);
+    return std::make_unique<LinkedList>(
+        device, inputs, static_cast<std::uint64_t>(budgetMiB) << 20, isEveryFrame);
 }
 
 }  // namespace brume::oit::linked_list

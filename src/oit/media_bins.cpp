@@ -10,6 +10,7 @@
 #include <spv/oit/media_bins/bin.comp.hpp>
 #include <spv/oit/media_bins/box_keys.comp.hpp>
 #include <spv/oit/media_bins/box_rects.comp.hpp>
+#include <spv/oit/media_bins/fit.comp.hpp>
 #include <spv/oit/media_bins/gather.comp.hpp>
 #include <spv/oit/media_bins/keys.comp.hpp>
 #include <spv/oit/media_bins/sort.comp.hpp>
@@ -89,6 +90,17 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
     mValues = makeUints(device, name + ".values", inputs.sphereCount);
     mSortedSpheres = {device, {.name = name + ".sorted_spheres", .bytes = sphereBytes}};
     mLimits = makeUints(device, name + ".limits", mTileCount);
+    mFit = {device,
+            {.name = name + ".fit",
+             .spirv = spv::oit_media_bins_fit_comp,
+             .pushConstantBytes = sizeof(shader::FitPush)}};
+    constexpr std::uint64_t kTotalsBytes = 2 * sizeof(shader::BinTotals);
+    mTotals = {device, {.name = name + ".bin_totals", .bytes = kTotalsBytes}};
+    mTotalsRead = {device,
+                   {.name = name + ".bin_totals_read",
+                    .bytes = kTotalsBytes,
+                    .memory = gpu::MemoryKind::Readback}};
+    std::ranges::fill(mTotalsRead.mappedAs<std::uint32_t>(), 0u);  // until a frame has finished
     mSpheres = makeSet(device, name + ".sphere_bins", inputs.sphereCount, shader::kKeysOfSpheres);
     mSpheres.keys = mKeys.deviceAddress();
     // Of parallel rays, boxes are sorted by their middles.
@@ -107,14 +119,11 @@ MediaBins::Set MediaBins::makeSet(gpu::Device& device, const std::string& name,
     set.binScatter = makePipeline(device, name + ".scatter", spv::oit_media_bins_bin_comp, {},
                                   {true, keyKind});
     set.rects = makeUints(device, name + ".rects", 2ull * count);
-    set.offsets = makeUints(device, name + ".offsets", mTileCount + 1);
+    set.wanted = makeUints(device, name + ".wanted", mTileCount + 1);
+    set.fitted = makeUints(device, name + ".fitted", mTileCount + 1);
     set.cursors = makeUints(device, name + ".cursors", mTileCount);
     set.sums = makeUints(device, name + ".sums", gpu::PrefixSum::sumCount(mTileCount + 1));
     set.pairs = makeUints(device, name + ".pairs", 1);
-    set.offsetsRead = {device,
-                       {.name = name + ".offsets_read",
-                        .bytes = 4ull * (mTileCount + 1),
-                        .memory = gpu::MemoryKind::Readback}};
     return set;
 }
 
@@ -184,17 +193,19 @@ void MediaBins::recordSortLists(gpu::Commands& commands, const Inputs& inputs,
     commands.bindCompute(mSortLists);
     bindFrame(commands, inputs);
     commands.pushConstants(
-        shader::BinPush{.counts = set.offsets.deviceAddress(), .pairs = set.pairs.deviceAddress()});
+        shader::BinPush{.counts = set.fitted.deviceAddress(), .pairs = set.pairs.deviceAddress()});
     commands.dispatch((mTileCount + 63) / 64);
 }
 
 void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                           const gpu::ComputePipeline& pipeline) const {
+    const bool isScatter = &pipeline == &set.binScatter;
     commands.bindCompute(pipeline);
     bindFrame(commands, inputs);
     commands.pushConstants(shader::BinPush{.keys = set.keys,
                                            .rects = set.rects.deviceAddress(),
-                                           .counts = set.offsets.deviceAddress(),
+                                           .counts = isScatter ? set.fitted.deviceAddress()
+                                                               : set.wanted.deviceAddress(),
                                            .cursors = set.cursors.deviceAddress(),
                                            .pairs = set.pairs.deviceAddress(),
                                            .limits = mLimits.deviceAddress(),
@@ -205,28 +216,44 @@ void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const S
 void MediaBins::recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const {
     if (set.count > 0) recordBin(commands, inputs, set, set.binCount);
     commands.computeBarrier();
-    mPrefixSum.record(commands, set.offsets.deviceAddress(), mTileCount + 1,
+    mPrefixSum.record(commands, set.wanted.deviceAddress(), mTileCount + 1,
                       set.sums.deviceAddress());
+    commands.computeBarrier();
+    recordFit(commands, set);
+}
+
+void MediaBins::recordFit(gpu::Commands& commands, const Set& set) const {
+    const std::uint64_t at = &set == &mBoxes ? sizeof(shader::BinTotals) : 0;
+    commands.bindCompute(mFit);
+    commands.pushConstants(shader::FitPush{.wanted = set.wanted.deviceAddress(),
+                                           .fitted = set.fitted.deviceAddress(),
+                                           .totals = mTotals.deviceAddress() + at,
+                                           .tileCount = mTileCount,
+                                           .capacity = set.capacity});
+    commands.dispatch(mTileCount / 64 + 1);
 }
 
 void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
     frame::PassBuilder& pass = frame.addPass(mName + ".bin");
     for (const Set* set : {&mSpheres, &mBoxes})
-        for (const gpu::Buffer* buffer : {&set->offsets, &set->cursors})
+        for (const gpu::Buffer* buffer : {&set->wanted, &set->cursors})
             pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
+    pass.writes(frame.importBuffer(mTotals), Access::TransferWrite);
     pass.reads(inputs.spheres, Access::ComputeRead).reads(inputs.opaqueT, Access::ComputeSample);
     if (mBoxSort)
         for (const gpu::Buffer* buffer : {&mBoxKeyValues, &mBoxValues, &mSortedBoxes})
             pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
     for (const gpu::Buffer* buffer :
-         {&mLimits, &mKeys, &mValues, &mSortedSpheres, &mSpheres.rects, &mSpheres.sums, &mSpheres.offsets,
-          &mBoxes.rects, &mBoxes.sums, &mBoxes.offsets})
+         {&mLimits, &mKeys, &mValues, &mSortedSpheres, &mTotals, &mSpheres.rects, &mSpheres.sums,
+          &mSpheres.wanted, &mSpheres.fitted, &mBoxes.rects, &mBoxes.sums, &mBoxes.wanted,
+          &mBoxes.fitted})
         pass.writes(frame.importBuffer(*buffer), Access::ComputeWrite);
     pass.record([this, inputs](gpu::Commands& commands, const frame::PassResources& resources) {
         for (const Set* set : {&mSpheres, &mBoxes}) {
-            commands.fillBuffer(set->offsets, 0);
+            commands.fillBuffer(set->wanted, 0);
             commands.fillBuffer(set->cursors, 0);
         }
+        commands.fillBuffer(mTotals, 0);
         commands.computeTransferBarrier();
         recordLimits(commands, inputs, resources.image(inputs.opaqueT));
         if (mSpheres.count > 0) recordSort(commands, inputs, resources.buffer(inputs.spheres));
@@ -234,30 +261,41 @@ void MediaBins::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
         recordCount(commands, inputs, mSpheres);
         recordCount(commands, inputs, mBoxes);
     });
+    frame.addReadback(mName + ".bin_totals_read", frame.importBuffer(mTotals), mTotalsRead);
 }
 
-void MediaBins::declareTotals(frame::FrameBuilder& frame) {
-    frame::PassBuilder& pass = frame.addPass(mName + ".totals");
-    for (const Set* set : {&mSpheres, &mBoxes}) {
-        pass.reads(frame.importBuffer(set->offsets), Access::TransferRead);
-        pass.writes(frame.importBuffer(set->offsetsRead), Access::TransferWrite);
-    }
-    pass.record([this](gpu::Commands& commands, const frame::PassResources&) {
-        for (const Set* set : {&mSpheres, &mBoxes})
-            commands.copyBuffer(set->offsets, set->offsetsRead, 4ull * (mTileCount + 1));
-    });
-}
-
-void MediaBins::allocate() {
+void MediaBins::reserve(std::uint64_t pairs) {
+    const auto totals = mTotalsRead.mappedAs<shader::BinTotals>();
     for (Set* set : {&mSpheres, &mBoxes}) {
-        const auto offsets = set->offsetsRead.mappedAs<std::uint32_t>();
-        set->pairCount = offsets[mTileCount];
-        set->longest = 0;
-        for (std::uint32_t tile = 0; tile < mTileCount; ++tile)
-            set->longest = std::max(set->longest, offsets[tile + 1] - offsets[tile]);
+        const std::uint64_t wanted = totals[set == &mBoxes].pairs;
+        const std::uint64_t most = 0xffffffffu;  // indices have 32 bits
+        const std::uint64_t least = set->count > 0 ? pairs : 0;
+        const std::uint64_t room =
+            std::min(std::max(least, pairs > 0 ? wanted + wanted / 4 : wanted), most);
+        set->capacity = static_cast<std::uint32_t>(std::max<std::uint64_t>(room, 1));
         const std::string name = set->pairs.name();
-        set->pairs = makeUints(*mDevice, name, set->pairCount);
+        set->pairs = makeUints(*mDevice, name, set->capacity);
     }
+}
+
+std::uint64_t MediaBins::pairCount() const {
+    const auto totals = mTotalsRead.mappedAs<shader::BinTotals>();
+    return std::uint64_t{totals[0].pairs} + totals[1].pairs;
+}
+
+std::uint64_t MediaBins::droppedPairs() const {
+    const auto totals = mTotalsRead.mappedAs<shader::BinTotals>();
+    std::uint64_t dropped = 0;
+    for (const Set* set : {&mSpheres, &mBoxes}) {
+        const std::uint32_t wanted = totals[set == &mBoxes].pairs;
+        dropped += wanted - std::min(wanted, set->capacity);
+    }
+    return dropped;
+}
+
+std::uint32_t MediaBins::longestList() const {
+    const auto totals = mTotalsRead.mappedAs<shader::BinTotals>();
+    return std::max(totals[0].longest, totals[1].longest);
 }
 
 void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -266,7 +304,7 @@ void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs)
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     if (mBoxSort) pass.reads(frame.importBuffer(mBoxKeyValues), Access::ComputeRead);
     for (const Set* set : {&mSpheres, &mBoxes}) {
-        for (const gpu::Buffer* buffer : {&set->rects, &set->offsets})
+        for (const gpu::Buffer* buffer : {&set->rects, &set->fitted})
             pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
         pass.readsWrites(frame.importBuffer(set->cursors), Access::ComputeWrite);
         pass.writes(frame.importBuffer(set->pairs), Access::ComputeWrite);
@@ -281,13 +319,13 @@ void MediaBins::declareScatter(frame::FrameBuilder& frame, const Inputs& inputs)
 
 void MediaBins::declareReads(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {
     for (const gpu::Buffer* buffer :
-         {&mSortedSpheres, &mSpheres.offsets, &mSpheres.pairs, &mBoxes.offsets, &mBoxes.pairs})
+         {&mSortedSpheres, &mSpheres.fitted, &mSpheres.pairs, &mBoxes.fitted, &mBoxes.pairs})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     if (mBoxSort) pass.reads(frame.importBuffer(mSortedBoxes), Access::ComputeRead);
 }
 
 void MediaBins::declareReorders(frame::FrameBuilder& frame, frame::PassBuilder& pass) const {
-    for (const gpu::Buffer* buffer : {&mSortedSpheres, &mSpheres.offsets})
+    for (const gpu::Buffer* buffer : {&mSortedSpheres, &mSpheres.fitted})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     pass.readsWrites(frame.importBuffer(mSpheres.pairs), Access::ComputeWrite);
 }
@@ -301,7 +339,7 @@ std::uint64_t MediaBins::bytes() const {
             mBoxSort->bytes() + mBoxKeyValues.bytes() + mBoxValues.bytes() + mSortedBoxes.bytes();
     for (const Set* set : {&mSpheres, &mBoxes})
         for (const gpu::Buffer* buffer :
-             {&set->rects, &set->offsets, &set->cursors, &set->sums, &set->pairs})
+             {&set->rects, &set->wanted, &set->fitted, &set->cursors, &set->sums, &set->pairs})
             sum += buffer->bytes();
     return sum;
 }

@@ -11,10 +11,14 @@
 
 namespace brume::oit {
 
+/// For reserve() before anything is known.
+inline constexpr std::uint32_t kReservedPairsPerTile = 64;
+
 /// How many screen tiles cover an image.
 std::uint32_t countTiles(VkExtent2D extent);
 
-/// Count, scan, scatter: the memory for the tiles' lists is known before any of it is written.
+/// Count, scan, scatter: what memory the tiles' lists want is known before any of it is written.
+/// Where they have less, each tile keeps the same share of its list, nearly its nearest media.
 /// If the lists are sorted, media stand in the order of their smallest possible distances; else
 /// spheres nearly so, and boxes in any order. What something opaque hides from all of a tile is not
 /// in its list.
@@ -26,9 +30,11 @@ class MediaBins {
 
     /// Pass "<name>.bin": sorts, and counts how many media touch each tile.
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
-    /// Copies the counts to the host; after that frame, allocate() makes room for the lists.
-    void declareTotals(frame::FrameBuilder& frame);
-    void allocate();
+    /// Makes room for the lists as the last finished frame wanted them. A frame that has declared
+    /// the count alone is enough.
+    void allocate() { reserve(0); }
+    /// Likewise, with some more; at least `pairs` for spheres and for boxes where there are any.
+    void reserve(std::uint64_t pairs);
     /// Pass "<name>.scatter": fills the tiles' lists.
     void declareScatter(frame::FrameBuilder& frame, const Inputs& inputs);
 
@@ -43,14 +49,22 @@ class MediaBins {
         return mBoxSort ? mSortedBoxes : *inputs.boxes;
     }
     struct List {
-        VkDeviceAddress offsets = 0;  ///< uint[tiles + 1]
+        VkDeviceAddress offsets = 0;  ///< uint[tiles + 1], within the memory
         VkDeviceAddress pairs = 0;    ///< uint[], indices into the sorted spheres or the boxes
     };
     List spheres() const { return listOf(mSpheres); }
     List boxes() const { return listOf(mBoxes); }
-    std::uint64_t pairCount() const { return mSpheres.pairCount + mBoxes.pairCount; }
-    /// Spheres or boxes of the tile that has most of them.
-    std::uint32_t longestList() const { return std::max(mSpheres.longest, mBoxes.longest); }
+    /// Spheres or boxes, whichever are more.
+    std::uint32_t mediaCount() const { return std::max(mSpheres.count, mBoxes.count); }
+    /// Of the last finished frame: what its lists wanted, and how much of that had no room.
+    std::uint64_t pairCount() const;
+    std::uint64_t droppedPairs() const;
+    /// Room for pairs of tile and sphere.
+    std::uint32_t sphereCapacity() const { return mSpheres.capacity; }
+    /// Spheres or boxes of the tile that wants most of them.
+    std::uint32_t longestList() const;
+    /// shader::BinTotals[2], of spheres and boxes, on the device.
+    const gpu::Buffer& totals() const { return mTotals; }
     std::uint64_t bytes() const;
 
   private:
@@ -58,12 +72,11 @@ class MediaBins {
         std::uint32_t count = 0;
         gpu::ComputePipeline binCount, binScatter;
         VkDeviceAddress keys = 0;  ///< sorted, where they tell distances
-        gpu::Buffer rects, offsets, cursors, sums, pairs, offsetsRead;
-        std::uint64_t pairCount = 0;
-        std::uint32_t longest = 0;
+        gpu::Buffer rects, wanted, fitted, cursors, sums, pairs;
+        std::uint32_t capacity = 1;  ///< pairs
     };
     static List listOf(const Set& set) {
-        return {set.offsets.deviceAddress(), set.pairs.deviceAddress()};
+        return {set.fitted.deviceAddress(), set.pairs.deviceAddress()};
     }
     Set makeSet(gpu::Device& device, const std::string& name, std::uint32_t count,
                 std::uint32_t keyKind) const;
@@ -74,6 +87,7 @@ class MediaBins {
     void recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
     void recordBoxes(gpu::Commands& commands, const Inputs& inputs) const;
     void recordSortLists(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
+    void recordFit(gpu::Commands& commands, const Set& set) const;
     void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                    const gpu::ComputePipeline& pipeline) const;
 
@@ -81,11 +95,11 @@ class MediaBins {
     std::string mName;
     std::uint32_t mTileCount;
     gpu::ComputePipeline mIdentityKeys, mDistanceKeys, mGather, mBoxRects, mTileLimits;
-    gpu::ComputePipeline mBoxKeys, mSortLists;
+    gpu::ComputePipeline mBoxKeys, mSortLists, mFit;
     gpu::PrefixSum mPrefixSum;
     std::optional<gpu::RadixSort> mSort, mBoxSort;
     gpu::Buffer mKeys, mValues, mSortedSpheres, mBoxKeyValues, mBoxValues, mSortedBoxes;
-    gpu::Buffer mLimits;
+    gpu::Buffer mLimits, mTotals, mTotalsRead;
     Set mSpheres, mBoxes;
 };
 

@@ -29,7 +29,9 @@ class OitMethod {
 
     /// Called before the first frame and after a change of the scene, camera or size: allocates. A
     /// method that must know counts before it can allocate measures them here, in frames of the
-    /// host's. Throws an input Error if a budget cannot hold even the smallest unit of work.
+    /// host's. Where nobody can wait for one, `measure` is empty: it then reserves memory by what
+    /// the last finished frame wanted, or by a guess, and plans each frame on the device. Throws an
+    /// input Error if a budget cannot hold even the smallest unit of work.
     virtual void prepare(const MeasureFunction& measure) = 0;
 
     /// Adds the passes "oit.<name>.<stage>" of one frame, which write inputs.result.
@@ -41,6 +43,10 @@ class OitMethod {
     /// By how much, at most, the last finished frame differs from the exact image, rounding aside: 0
     /// from an exact method, nothing from one that does not know.
     virtual std::optional<double> errorBound() { return std::nullopt; }
+
+    /// Whether the last finished frame wanted more memory than there was: something was dropped, and
+    /// counted. prepare() without measuring then reserves more.
+    virtual bool lacksMemory() { return false; }
 
     /// Device memory held, by kind.
     virtual std::map<std::string, std::uint64_t> bytes() const = 0;

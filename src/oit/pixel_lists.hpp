@@ -3,14 +3,21 @@
 // exactly: method linked_list for all tiles, the exact fallback of method tile for a few.
 #pragma once
 
-#include <oit/media_bins.hpp>
+#include <oit/list_memory.hpp>
 #include <oit/oit_method.hpp>
-
-#include <shaders/oit/linked_list/lists.h>
 
 #include <span>
 
 namespace brume::oit {
+
+/// The setting of methods that plan their frames.
+inline constexpr scene::SettingInfo kEveryFrameInfo{
+    "everyFrame", "true or false", "false",
+    "plan each frame on the device, as within a host's frame, not once by a frame before"};
+
+/// Where a method has reserved memory but frames can be measured: reserves more until one fits.
+void growBy(OitMethod& method, const OitMethod::MeasureFunction& measure,
+            const std::function<void()>& reserve);
 
 class PixelLists {
   public:
@@ -22,10 +29,23 @@ class PixelLists {
                std::uint64_t budgetBytes, MediaBins& bins, float epsilon = 0);
 
     /// Which tiles have lists; at least one. Before prepare().
-    void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount);
+    void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount) {
+        mMemory.setTiles(tiles, screenTileCount);
+    }
     /// Measures and allocates; the bins must be allocated. Throws an input Error if the budget
     /// cannot hold the lists of one tile.
     void prepare(const OitMethod::MeasureFunction& measure);
+
+    /// Instead of setTiles(): any of the screen's tiles may have lists, and passes ahead of
+    /// declare() say which in tileMap().
+    void setAnyTiles(std::uint32_t screenTileCount) { mMemory.setAnyTiles(screenTileCount); }
+    /// Instead of prepare(): reserves memory without measuring, by what the last finished frame
+    /// wanted, if there is one, and for at least `blocksPerTile` blocks of 64 bytes for each tile
+    /// of the screen; within the budget.
+    void reserve(std::uint32_t blocksPerTile);
+    /// shaders/oit/linked_list/lists.h
+    const gpu::Buffer& tileMap() const { return mMemory.tileMap(); }
+
     /// Writes the pixels of its tiles. `isFirstWriter`: no pass before has written the result.
     void declare(frame::FrameBuilder& frame, const Inputs& inputs, bool isFirstWriter);
     std::map<std::string, std::uint64_t> counters();
@@ -34,34 +54,30 @@ class PixelLists {
     std::map<std::string, std::uint64_t> bytes() const;
 
   private:
-    /// A run of tiles whose lists fit into the budget together.
-    struct Band {
-        std::uint32_t firstSlot = 0;  ///< of the tiles that have lists
-        std::uint32_t tileCount = 0;
-        std::uint64_t entryCount = 0;
-        std::uint64_t recordCount = 0;
+    using Visit = ListMemory::Visit;
+    struct Memory {
+        std::uint64_t blocks = 0;
+        std::uint32_t bandCount = 1;
     };
 
-    void planBands();
+    Memory planMemory() const;
     /// Finds out in how many rounds the longest list is resolved.
     void planRounds(const OitMethod::MeasureFunction& measure);
+    void setRounds(std::uint32_t count);
+    std::uint32_t sliceCountFor(std::uint32_t mediaCount) const;
+    std::uint64_t unvisitedMedia() const;
     gpu::ComputePipeline makeResolve() const;
-    void allocateForBands();
-    void declareClear(frame::FrameBuilder& frame, const Band& band);
-    void declareCount(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
-    void declareTotals(frame::FrameBuilder& frame, const Inputs& inputs);
-    void declareScan(frame::FrameBuilder& frame, const Band& band);
+    gpu::ComputePipeline makeStore(bool mayLackRoom) const;
+    void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Completes a pass in which each invocation visits the media of its column of pixels.
-    void declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+    void declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band,
                       frame::PassBuilder& pass, const gpu::ComputePipeline& pipeline);
-    void declareStore(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band);
-    void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+    void declareStore(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band);
+    void declareResolve(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band,
                         bool isFirstWriter);
-    void declareSurfaces(frame::FrameBuilder& frame, const Inputs& inputs, const Band& band,
+    void declareSurfaces(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band,
                          const char* stage, const gpu::GraphicsPipeline& pipeline);
-    gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
-                           gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
-    shader::ListPush makePush(const Band& band) const;
+    shader::ListPush makePush(std::uint32_t band) const;
 
     gpu::Device* mDevice;
     std::string mName;
@@ -69,17 +85,11 @@ class PixelLists {
     float mEpsilon;
     Needs mNeeds;
     MediaBins* mBins;
-    std::uint32_t mTileCount = 0;
-    gpu::PrefixSum mPrefixSum;
-    gpu::ComputePipeline mCount, mStore, mResolve, mTotals;
+    ListMemory mMemory;
+    gpu::ComputePipeline mCount, mStore, mResolve;
     gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
-    std::vector<Band> mBands;
-    std::uint64_t mSurfacesStored = 0, mLongest = 0;
     std::uint32_t mSliceCount = 1, mRoundCount = 1;
-    gpu::Buffer mTileMap, mOffsets, mSums, mSurfaceOffsets, mSurfaceCursors, mProgress, mLists;
     gpu::Buffer mStates;
-    gpu::Buffer mCounters, mCountersRead, mTileTotals, mTileTotalsRead;
-    gpu::Buffer mBandTotals, mBandTotalsRead;
 };
 
 }  // namespace brume::oit

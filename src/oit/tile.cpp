@@ -17,6 +17,7 @@
 //         need lists.
 #include <oit/bindings.hpp>
 #include <oit/pixel_lists.hpp>
+#include <oit/tile_plan.hpp>
 
 #include <shaders/common/frame.h>
 #include <shaders/common/frame_bindings.h>
@@ -45,6 +46,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <optional>
 
 namespace brume::oit::tile {
@@ -68,7 +70,8 @@ const std::vector<gpu::Binding> kImages = {
 struct Settings {
     float epsilon = 1.f / 1024;                 ///< transmittance at which a pixel stops; 0: exact
     std::uint64_t budgetBytes = 1024ull << 20;  ///< for lists
-    bool overlap = true;                        ///< false: spheres count as one behind the other
+    bool overlap = true;      ///< false: spheres count as one behind the other
+    bool everyFrame = false;  ///< plan each frame, on the device, also where measuring is possible
 };
 
 class Tile final : public OitMethod {
@@ -80,6 +83,7 @@ class Tile final : public OitMethod {
     void declare(frame::FrameBuilder& frame, const Inputs& inputs) override;
     std::map<std::string, std::uint64_t> counters() override;
     std::optional<double> errorBound() override;
+    bool lacksMemory() override;
     std::map<std::string, std::uint64_t> bytes() const override;
 
   private:
@@ -87,8 +91,9 @@ class Tile final : public OitMethod {
     struct Group {
         gpu::ComputePipeline pipeline;
         std::uint32_t threadsPerTile = 0;
-        std::uint32_t tileCount = 0;
-        gpu::Buffer tiles;  ///< uint[tileCount]
+        std::uint32_t tileClass = shader::kClassEmpty;  ///< whose tiles it takes
+        std::uint32_t tileCount = 0;                    ///< where the host has planned
+        TileList tiles;
     };
 
     gpu::ComputePipeline makePipeline(const char* stage, std::span<const std::uint32_t> spirv,
@@ -103,8 +108,16 @@ class Tile final : public OitMethod {
     void prepareMixed(std::size_t window);
     gpu::Buffer makeBuffer(const char* stage, std::uint64_t bytes,
                            gpu::MemoryKind memory = gpu::MemoryKind::Device) const;
-    shader::TilePush makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const;
+    shader::TilePush makePush(const TileList& tiles) const;
     void setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const;
+    /// The whole screen, for classify.
+    void setAll();
+    /// Memory for frames that are planned on the device.
+    void reserve();
+    void makeLists();
+    std::array<Group*, 2 + kMixWindows.size()> groups();
+    void declarePlanned(frame::FrameBuilder& frame, const Inputs& inputs);
+    void declareGroupCounts(frame::FrameBuilder& frame);
     void declareMark(frame::FrameBuilder& frame, const Inputs& inputs);
     void declareClassify(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Sources are worked out once per ray: for a few media, where light is the same everywhere.
@@ -117,12 +130,10 @@ class Tile final : public OitMethod {
         return mNeeds.boxes && mNeeds.oneMedium && !mNeeds.oneSource &&
                (mNeeds.shadowStores & shader::kStoreExact) == 0;
     }
-    void planTiles();
-    std::uint32_t countMixed() const {
-        std::uint32_t sum = 0;
-        for (const Group& group : mMixed) sum += group.tileCount;
-        return sum;
+    bool canMix() const {
+        return canComposite() && !mNeeds.oneSource && mNeeds.uniformSpheres && mSettings.overlap;
     }
+    void planTiles();
     void declareClear(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Lists the spheres of mixed tiles in the orders in which the rays through their middles meet
     /// them.
@@ -139,6 +150,8 @@ class Tile final : public OitMethod {
     std::array<Group, kMixWindows.size()> mMixed;  // by the size of their window
     std::array<gpu::ComputePipeline, kMixWindows.size()> mOrders;
     gpu::ComputePipeline mClassifyBoxes;
+    std::optional<TilePlan> mPlan;  // none: planned by the host, once
+    gpu::Buffer mGroupCountsRead;   // uint per group
     gpu::GraphicsPipeline mMark;
     std::optional<PixelLists> mLists;
     std::uint64_t mListTileCount = 0;
@@ -157,24 +170,25 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                          choose(spv::oit_tile_classify_comp, spv::oit_tile_classify_comp_float64),
                          {}, {mSettings.overlap}),
             shader::kTileSize};
-    mOrdered = {
-        makePipeline("composite",
-                     choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
-                     kImages),
-        shader::kTileSize};
+    if (canComposite())
+        mOrdered = {
+            makePipeline("composite",
+                         choose(spv::oit_tile_composite_comp, spv::oit_tile_composite_comp_float64),
+                         kImages),
+            shader::kTileSize, shader::kClassOrdered};
     const std::uint32_t pixels = shader::kTileSize * shader::kTileSize;
     if (mNeeds.boxes && mNeeds.oneSource) {
         mVolumes = {
             makePipeline("volumes",
                          choose(spv::oit_tile_volumes_comp, spv::oit_tile_volumes_comp_float64),
                          kImages),
-            pixels};
+            pixels, shader::kClassVolumes};
     } else if (canLightVolumes()) {
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
                                         spv::oit_tile_lit_volumes_comp_float64),
                                  kImages),
-                    pixels};
+                    pixels, shader::kClassVolumes};
         mClassifyBoxes = makePipeline(
             "classify_boxes",
             choose(spv::oit_tile_classify_boxes_comp, spv::oit_tile_classify_boxes_comp_float64),
@@ -218,11 +232,14 @@ gpu::ComputePipeline Tile::makePipeline(const char* stage, std::span<const std::
 }
 
 void Tile::prepareMixed(std::size_t window) {
-    if (!mSphereEnds) mSphereEnds = makeBuffer("sphere_ends", 4 * mBins.pairCount());
+    const std::uint64_t endBytes = 4ull * mBins.sphereCapacity();
+    if (!mSphereEnds || mSphereEnds.bytes() < endBytes)
+        mSphereEnds = makeBuffer("sphere_ends", endBytes);
     if (mMixed[window].pipeline) return;
     const MixWindows& size = kMixWindows[window];
     const auto classIfSmall = static_cast<std::uint32_t>(shader::kClassMix + window + 1);
     mMixed[window].threadsPerTile = shader::kTileSize;
+    mMixed[window].tileClass = static_cast<std::uint32_t>(shader::kClassMix + window);
     mMixed[window].pipeline =
         makePipeline(fmt::format("overlaps_{}", size.events).c_str(),
                      choose(spv::oit_tile_overlaps_comp, spv::oit_tile_overlaps_comp_float64),
@@ -241,12 +258,17 @@ gpu::Buffer Tile::makeBuffer(const char* stage, std::uint64_t bytes, gpu::Memory
 
 void Tile::setTiles(Group& group, const std::vector<std::uint32_t>& tiles) const {
     group.tileCount = static_cast<std::uint32_t>(tiles.size());
-    group.tiles = makeBuffer("tiles", 4 * tiles.size(), gpu::MemoryKind::Upload);
-    std::copy(tiles.begin(), tiles.end(), group.tiles.mappedAs<std::uint32_t>().begin());
+    group.tiles = TileList(*mDevice, "oit.tile.tiles", tiles, group.threadsPerTile);
 }
 
-shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCount) const {
-    return {.tiles = tiles.deviceAddress(),
+void Tile::setAll() {
+    std::vector<std::uint32_t> all(mTileCount);
+    std::iota(all.begin(), all.end(), 0u);
+    setTiles(mAll, all);
+}
+
+shader::TilePush Tile::makePush(const TileList& tiles) const {
+    return {.tiles = tiles.buffer().deviceAddress(),
             .sphereOffsets = mBins.spheres().offsets,
             .spherePairs = mBins.spheres().pairs,
             .sphereEnds = mSphereEnds ? mSphereEnds.deviceAddress() : 0,
@@ -254,20 +276,53 @@ shader::TilePush Tile::makePush(const gpu::Buffer& tiles, std::uint32_t tileCoun
             .boxPairs = mBins.boxes().pairs,
             .classes = mClasses.deviceAddress(),
             .counters = mCounters.deviceAddress(),
-            .tileCount = tileCount,
             .epsilon = mSettings.epsilon,
             .largestTint = mNeeds.largestTint};
 }
 
+std::array<Tile::Group*, 2 + kMixWindows.size()> Tile::groups() {
+    std::array<Group*, 2 + kMixWindows.size()> all = {&mOrdered, &mVolumes};
+    for (std::size_t i = 0; i < mMixed.size(); ++i) all[2 + i] = &mMixed[i];
+    return all;
+}
+
+void Tile::reserve() {
+    mBins.reserve(std::uint64_t{mTileCount} * kReservedPairsPerTile);
+    if (!mPlan) {
+        mPlan.emplace(*mDevice, "oit.tile.plan", mTileCount);
+        mIsScreenCovered = false;
+        setAll();
+        for (std::size_t i = 0; canMix() && i < mMixed.size(); ++i) prepareMixed(i);
+        for (Group* group : groups())
+            if (group->pipeline)
+                group->tiles =
+                    TileList(*mDevice, "oit.tile.tiles", mTileCount, group->threadsPerTile);
+        mGroupCountsRead =
+            makeBuffer("group_counts_read", 4 * groups().size(), gpu::MemoryKind::Readback);
+        std::ranges::fill(mGroupCountsRead.mappedAs<std::uint32_t>(), 0u);
+        makeLists();
+        mLists->setAnyTiles(mTileCount);
+    }
+    if (canMix()) prepareMixed(0);  // room for all pairs
+    constexpr std::uint32_t kBlocksPerTile = 16;  // 1 KiB, two entries a pixel
+    mLists->reserve(kBlocksPerTile);
+}
+
+void Tile::makeLists() {
+    mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins,
+                   mSettings.epsilon);
+}
+
 void Tile::prepare(const MeasureFunction& measure) {
+    if (!measure || mSettings.everyFrame) {
+        reserve();
+        return growBy(*this, measure, [this] { reserve(); });
+    }
     measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
         mBins.declareCount(frame, inputs);
-        mBins.declareTotals(frame);
     });
     mBins.allocate();
-    std::vector<std::uint32_t> all(mTileCount);
-    for (std::uint32_t tile = 0; tile < mTileCount; ++tile) all[tile] = tile;
-    setTiles(mAll, all);
+    setAll();
     measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
         mBins.declareCount(frame, inputs);
         mBins.declareScatter(frame, inputs);
@@ -309,7 +364,7 @@ void Tile::declareMark(frame::FrameBuilder& frame, const Inputs& inputs) {
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
             drawSurfaces(commands, inputs, [&](std::uint32_t) {
-                commands.pushConstants(makePush(mAll.tiles, mTileCount));
+                commands.pushConstants(makePush(mAll.tiles));
             });
         });
 }
@@ -327,7 +382,7 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
             bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
-            commands.pushConstants(makePush(mAll.tiles, mTileCount));
+            commands.pushConstants(makePush(mAll.tiles));
             commands.dispatchThreads(std::uint64_t{mTileCount} * threadsPerTile, 64);
         };
         run(mAll.pipeline, shader::kTileSize);
@@ -335,7 +390,7 @@ void Tile::declareClassify(frame::FrameBuilder& frame, const Inputs& inputs) {
         commands.computeBarrier();
         run(mClassifyBoxes, shader::kTileSize * shader::kTileSize);
     });
-    frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
+    if (!mPlan) frame.addReadback("oit.tile.classes_read", classes, mClassesRead);
 }
 
 void Tile::planTiles() {
@@ -356,19 +411,20 @@ void Tile::planTiles() {
             lists.push_back(tile);
     }
     // Copying the image is cheaper than visiting many empty tiles.
-    mIsScreenCovered = empty.size() < mTileCount / 4 && empty.size() + ordered.size() == mTileCount;
+    mIsScreenCovered = canComposite() && empty.size() < mTileCount / 4 &&
+                       empty.size() + ordered.size() == mTileCount;
     if (mIsScreenCovered) ordered.insert(ordered.end(), empty.begin(), empty.end());
     setTiles(mOrdered, ordered);
     setTiles(mVolumes, volumes);
-    for (std::size_t i = 0; i < mixed.size(); ++i) setTiles(mMixed[i], mixed[i]);
-    for (std::size_t i = 0; i < mixed.size(); ++i)
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
         if (!mixed[i].empty()) prepareMixed(i);
+        setTiles(mMixed[i], mixed[i]);
+    }
     mAll.tiles = {};  // not visited again
     mListTileCount = lists.size();
     mLists.reset();
     if (lists.empty()) return;
-    mLists.emplace(*mDevice, "oit.tile.lists", mNeeds, mSettings.budgetBytes, mBins,
-                   mSettings.epsilon);
+    makeLists();
     mLists->setTiles(lists, mTileCount);
 }
 
@@ -388,6 +444,7 @@ void Tile::declareClear(frame::FrameBuilder& frame, const Inputs& inputs) {
 void Tile::declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::size_t window) {
     frame::PassBuilder& pass = frame.addPass(mOrders[window].name());
     mBins.declareReorders(frame, pass);
+    mMixed[window].tiles.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.writes(frame.importBuffer(mSphereEnds), Access::ComputeWrite);
     pass.record(
@@ -397,9 +454,8 @@ void Tile::declareOrder(frame::FrameBuilder& frame, const Inputs& inputs, std::s
             bindMedia(commands, inputs, mBins.sortedSpheres(), mBins.listedBoxes(inputs));
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),
                           *inputs.texelSampler);
-            const Group& group = mMixed[window];
-            commands.pushConstants(makePush(group.tiles, group.tileCount));
-            commands.dispatchThreads(group.tileCount, 64);
+            commands.pushConstants(makePush(mMixed[window].tiles));
+            mMixed[window].tiles.dispatchPerTile(commands);
         });
 }
 
@@ -407,6 +463,7 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
                             bool isFirstWriter) {
     frame::PassBuilder& pass = frame.addPass(group.pipeline.name());
     mBins.declareReads(frame, pass);
+    group.tiles.declareReads(frame, pass);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
     if (mSphereEnds) pass.reads(frame.importBuffer(mSphereEnds), Access::ComputeRead);
@@ -426,8 +483,8 @@ void Tile::declareComposite(frame::FrameBuilder& frame, const Inputs& inputs, Gr
             commands.bind(shader::kBindingOpaqueColor, resources.image(inputs.opaqueColor),
                           *inputs.texelSampler);
             commands.bind(shader::kBindingTileResult, resources.image(inputs.result));
-            commands.pushConstants(makePush(group.tiles, group.tileCount));
-            commands.dispatchThreads(std::uint64_t{group.tileCount} * group.threadsPerTile, 64);
+            commands.pushConstants(makePush(group.tiles));
+            group.tiles.dispatch(commands);
         });
 }
 
@@ -435,6 +492,7 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     mBins.declareCount(frame, inputs);
     mBins.declareScatter(frame, inputs);
     declareClear(frame, inputs);
+    if (mPlan) return declarePlanned(frame, inputs);
     bool isFirstWriter = mIsScreenCovered;
     const auto composite = [&](Group& group) {
         declareComposite(frame, inputs, group, isFirstWriter);
@@ -451,15 +509,62 @@ void Tile::declare(frame::FrameBuilder& frame, const Inputs& inputs) {
     frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);
 }
 
+// Tiles that a group cannot do have gone over to the class of a later one when that is listed.
+void Tile::declarePlanned(frame::FrameBuilder& frame, const Inputs& inputs) {
+    declareMark(frame, inputs);
+    declareClassify(frame, inputs);
+    std::uint32_t listClasses = (2u << shader::kClassLists) - 1 - (1u << shader::kClassEmpty);
+    for (Group* group : groups()) {
+        if (!group->pipeline) continue;
+        listClasses &= ~(1u << group->tileClass);
+        mPlan->declareList(frame, mClasses, 1u << group->tileClass, group->tiles);
+        if (group->tileClass >= shader::kClassMix)
+            declareOrder(frame, inputs, group->tileClass - shader::kClassMix);
+        declareComposite(frame, inputs, *group, false);
+    }
+    mPlan->declareMap(frame, mClasses, listClasses, mLists->tileMap());
+    mLists->declare(frame, inputs, false);
+    declareGroupCounts(frame);
+    frame.addReadback("oit.tile.counters_read", frame.importBuffer(mCounters), mCountersRead);
+}
+
+void Tile::declareGroupCounts(frame::FrameBuilder& frame) {
+    frame::PassBuilder& pass = frame.addPass("oit.tile.group_counts");
+    for (const Group* group : groups())
+        if (group->pipeline)
+            pass.reads(frame.importBuffer(group->tiles.buffer()), Access::TransferRead);
+    pass.writes(frame.importBuffer(mGroupCountsRead), Access::TransferWrite);
+    pass.record([this](gpu::Commands& commands, const frame::PassResources&) {
+        std::uint64_t at = 0;
+        for (const Group* group : groups()) {
+            if (group->pipeline)
+                commands.copyBuffer(group->tiles.buffer(), mGroupCountsRead, 4,
+                                    4 * shader::kTileListCount, at);
+            at += 4;
+        }
+    });
+}
+
+bool Tile::lacksMemory() {
+    const auto counted = counters();
+    return mPlan && counted.at("dropped") + counted.at("exhausted") > 0;
+}
+
 std::map<std::string, std::uint64_t> Tile::counters() {
+    std::array<std::uint64_t, 2 + kMixWindows.size()> tiles{};
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        tiles[i] = mPlan ? mGroupCountsRead.mappedAs<std::uint32_t>()[i] : groups()[i]->tileCount;
     std::map<std::string, std::uint64_t> counters = {{"dropped", 0}, {"exhausted", 0}};
     if (mLists) counters = mLists->counters();
     const auto own = mCountersRead.mappedAs<shader::TileCounters>()[0];
     counters["pairs"] = mBins.pairCount();
-    counters["tilesOrdered"] = mOrdered.tileCount;
-    counters["tilesVolumes"] = mVolumes.tileCount;
-    counters["tilesMixed"] = countMixed();
-    counters["tilesLists"] = mListTileCount;
+    counters["tilesOrdered"] = tiles[0];
+    counters["tilesVolumes"] = tiles[1];
+    // Planned on the device, those that one window was too small for are in the next one's list too.
+    counters["tilesMixed"] =
+        mPlan ? tiles[2] : std::accumulate(tiles.begin() + 2, tiles.end(), std::uint64_t{0});
+    counters["tilesLists"] = mPlan ? counters.at("listTiles") : mListTileCount;
+    counters["dropped"] += mBins.droppedPairs();
     counters["exhausted"] += own.exhausted;
     counters["stopped"] += own.stopped;
     return counters;
@@ -476,8 +581,9 @@ std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
     bytes["bins"] = mBins.bytes() + mSphereEnds.bytes();
-    bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
-    for (const Group& group : mMixed) bytes["tiles"] += group.tiles.bytes();
+    bytes["tiles"] = mClasses.bytes() + mAll.tiles.buffer().bytes() +
+                     mOrdered.tiles.buffer().bytes() + mVolumes.tiles.buffer().bytes();
+    for (const Group& group : mMixed) bytes["tiles"] += group.tiles.buffer().bytes();
     return bytes;
 }
 
@@ -500,7 +606,8 @@ const MethodInfo& info() {
                       "whether spheres mix where they overlap; false, for billboards that do not: "
                       "faster, and without an error bound"},
                      {"budgetMiB", "1 .. 1048576 MiB", "1024",
-                      "memory for lists; beyond it, tiles are rendered in bands"}}};
+                      "memory for lists; beyond it, tiles are rendered in bands"},
+                     kEveryFrameInfo}};
     return kInfo;
 }
 
@@ -514,6 +621,7 @@ std::unique_ptr<OitMethod> create(gpu::Device& device, const Inputs& inputs,
     values.budgetBytes = static_cast<std::uint64_t>(reader.integer("budgetMiB", 1024, 1, 1 << 20))
                          << 20;
     values.overlap = reader.boolean("overlap", values.overlap);
+    values.everyFrame = reader.boolean(std::string(kEveryFrameInfo.name), false);
     reader.finish();
     return std::make_unique<Tile>(device, inputs, values);
 }

@@ -129,9 +129,10 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
                     std::any_of(scene.effects.begin(), scene.effects.end(),
                                 [](const auto& effect) { return !effect.effect.surface; });
     for (const scene::MediumSphere& sphere : prepared.spheres)
-        if (sphere.profile == scene::Profile::Smooth) needs.varyingDensity = true;
+        (sphere.profile == scene::Profile::Smooth ? needs.varyingDensity : needs.uniformSpheres) =
+            true;
     for (const scene::EffectInstance& effect : scene.effects)
-        if (effect.effect.smoothProfile) needs.varyingDensity = true;
+        (effect.effect.smoothProfile ? needs.varyingDensity : needs.uniformSpheres) = true;
     addVolumeNeeds(prepared, needs);
     addSurfaceNeeds(scene, needs);
     for (const scene::Material& material : scene.materials)

@@ -48,7 +48,6 @@ class RenderSequence : public testing::Test {
 
     std::vector<std::string> command(const std::string& folder,
                                      std::vector<std::string> arguments) const {
-        fs::create_directories(mFolder / folder);
         arguments.insert(arguments.begin(), {"render", path("scene.json"), "--method",
                                              "linked_list", "-o", path(folder + "/f.###.exr")});
         return arguments;
@@ -84,6 +83,15 @@ TEST_F(RenderSequence, Shards_GiveTheFramesOfOneRun) {
     }
     EXPECT_EQ(read("states").size(), 6u);  // three frames, two effects
     EXPECT_EQ(read("parts"), read("whole"));
+}
+
+TEST_F(RenderSequence, FolderOfTheFrames_IsMadeOrNamed) {
+    EXPECT_EQ(render("new/folder", {"--frames", "12:13"}).exitCode, 0);
+    EXPECT_EQ(read("new/folder").size(), 2u);
+    const Outcome outcome = render("scene.json", {"--frames", "12:13"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.err.find("scene.json"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << "nothing is rendered that cannot be written";
 }
 
 TEST_F(RenderSequence, SingleFrame_IsThatOfTheSequence) {

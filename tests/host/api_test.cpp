@@ -58,9 +58,10 @@ struct MemoryCount {
     }
 };
 
-Scene makeScene(const Context& context) {
+Scene makeScene(const Context& context, const char* method = "sorted") {
     auto info = init<BrumeSceneCreateInfo>();
     info.text = kSpheresScene;
+    info.method = method;
     Scene scene(context, info);
     auto puffs = init<BrumeEffect>();
     puffs.text = kEffect;
@@ -76,7 +77,9 @@ Scene makeScene(const Context& context) {
 }
 
 // Without validation: the layer allocates for each command.
-TEST(HostMemory, SteadyFrame_AllocatesNothing) {
+class HostMemoryOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(HostMemoryOf, SteadyFrame_AllocatesNothing) {
     const auto device = gpu::Device::create({}, {});
     gpu::Submitter submitter(*device);
     TestHost host(*device, submitter, {48, 32});
@@ -84,7 +87,7 @@ TEST(HostMemory, SteadyFrame_AllocatesNothing) {
     MemoryCount memory;
     memory.hook(info, *device);
     const Context context(info);
-    Scene scene = makeScene(context);
+    Scene scene = makeScene(context, GetParam());
     scene.prepare(host.view());
     std::vector<std::uint64_t> heap;
     int deviceBefore = 0;
@@ -106,6 +109,8 @@ TEST(HostMemory, SteadyFrame_AllocatesNothing) {
     EXPECT_GT(memory.allocated, 10);
     EXPECT_GT(heap[0], 100u) << "the counter counts the library's allocations";
 }
+
+INSTANTIATE_TEST_SUITE_P(All, HostMemoryOf, ::testing::Values("sorted", "tile", "linked_list"));
 
 /// Counts what a driver takes and gives back through the host's callbacks.
 struct CallbackCount {
@@ -192,8 +197,8 @@ TEST_F(HostTest, BadArguments_AreRefusedByName) {
     sceneInfo.file = "/nowhere/scene.json";
     expect(brumeCreateScene(context.get(), &sceneInfo, &missing), "scene.json");
     sceneInfo.file = nullptr;
-    sceneInfo.method = "tile";
-    expect(brumeCreateScene(context.get(), &sceneInfo, &missing), "tile");
+    sceneInfo.method = "mosaic";
+    expect(brumeCreateScene(context.get(), &sceneInfo, &missing), "mosaic");
     sceneInfo.method = "sorted";
     sceneInfo.text = "{ \"version\": 1, \"lihgts\": [] }";
     expect(brumeCreateScene(context.get(), &sceneInfo, &missing), "lihgts");

@@ -78,7 +78,64 @@ TEST_P(HostMethods, SceneOfAFile_EqualsTheRenderer) {
 
 INSTANTIATE_TEST_SUITE_P(All, HostMethods,
                          ::testing::Values("sorted", "weighted", "unordered", "moment", "peel",
-                                           "k_buffer", "stochastic"));
+                                           "k_buffer", "stochastic", "tile", "linked_list"));
+
+/// 120 spheres that fill the view: more than what is reserved before anything is known.
+std::string sceneOfManySpheres() {
+    std::string text = R"({ "version": 1,
+        "camera": { "position": [0, 0, 5], "target": [0, 0, 0], "verticalFov": 60, "near": 0.1 },
+        "image": { "width": 48, "height": 32 }, "background": { "radiance": [0.2, 0.3, 0.4] },
+        "lights": [ { "type": "ambient", "radiance": [0.4, 0.5, 0.6] } ],
+        "media": { "red": { "extinction": [0.01, 0.01, 0.01], "albedo": [0.9, 0.1, 0.1] },
+                   "blue": { "extinction": [0.01, 0.01, 0.01], "albedo": [0.1, 0.1, 0.9] } },
+        "spheres": [ )";
+    for (int i = 0; i < 120; ++i)
+        text += std::string(i > 0 ? ", " : "") + R"({ "center": [0.1, 0.1, )" +
+                std::to_string(-0.01 * i) + R"(], "radius": 3.5, "density": 1,
+                "medium": ")" + (i % 2 ? "red" : "blue") + R"(" })";
+    return text + " ] }";
+}
+
+class HostLists : public HostTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(HostLists, BeyondTheReservedMemory_SaySoAndGrowWhenPrepared) {
+    const std::string file = ::testing::TempDir() + "brume_host_lists_" + GetParam() + ".json";
+    std::ofstream(file) << sceneOfManySpheres();
+    const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
+    render::Options options;
+    options.method = GetParam();
+    const brume::Image expected =
+        render::Renderer(device(), prepared, options, log()).renderFrame().image;
+
+    const Context context(host().contextInfo());
+    Scene scene = Scene::load(context, file.c_str(), GetParam());
+    scene.prepare(host().view());
+    const auto renderFrame = [&] {
+        host().draw({0.2f, 0.3f, 0.4f}, 0);
+        host().frame(context.get(),
+                     [&](VkCommandBuffer commands) { scene.cmdRender(commands, host().view()); });
+        return largestDifference(host().read(), expected);
+    };
+    // Of 120 faint layers the nearest stay: right but for what the others would have hidden.
+    const double error = renderFrame();
+    EXPECT_GT(error, 1e-3);
+    EXPECT_LT(error, 0.3);
+    const BrumeCounters few = scene.counters();
+    EXPECT_GT(few.methodDropped, 0u);
+    EXPECT_GE(few.methodBytesWanted, 4u * 120 * 24) << "pairs with 24 tiles";
+    int growths = 0;
+    while (scene.counters().methodDropped > 0 && growths < 4) {
+        scene.prepare(host().view());
+        ++growths;
+        renderFrame();
+    }
+    EXPECT_LE(growths, 3);
+    EXPECT_LE(renderFrame(), 1e-6);
+    EXPECT_EQ(scene.counters().methodDropped, 0u);
+    EXPECT_GT(scene.counters().sceneBytes, few.sceneBytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HostLists, ::testing::Values("tile", "linked_list"));
 
 /// A camera that looks along -z at a sphere of constant density, half behind an opaque wall.
 struct DepthCase {

@@ -252,6 +252,23 @@ TEST_F(Tile, Bands_GiveTheSameBits) {
     EXPECT_EQ(computeHash(bands.image), computeHash(whole.image));
 }
 
+// As within a host's frame: no count is known before.
+TEST_F(Tile, EveryFramePlannedOnTheDevice_GivesTheSameBits) {
+    TestScene surfaces = makeCloud(80, 3, Profile::Smooth);
+    surfaces.addPane(surfaces.addMaterial(makeThin(0.7, dvec3(0.4, 0.5, 0.9), dvec3(0.3))), -0.4,
+                     0.5);
+    const TestScene scenes[] = {makeCloud(200, 1, Profile::Constant),
+                                makeCloud(60, 3, Profile::Constant), makeRow(0.45), surfaces};
+    for (const TestScene& s : scenes) {
+        const render::Result measured = renderTile(s);
+        const render::Result planned = renderTile(s, {{"epsilon", "0"}, {"everyFrame", "true"}});
+        EXPECT_EQ(planned.counters.at("dropped"), 0u);
+        for (const char* key : {"pairs", "tilesMixed", "tilesLists"})
+            EXPECT_EQ(planned.counters.at(key), measured.counters.at(key)) << key;
+        EXPECT_EQ(computeHash(planned.image), computeHash(measured.image));
+    }
+}
+
 class TileEarlyStop : public Tile {
   protected:
     void expectWithinBound(const TestScene& s, double mostPerEpsilon) {

@@ -225,6 +225,26 @@ TEST_F(Determinism, Bands_GiveTheSameBits) {
     }
 }
 
+TEST_F(Determinism, ListsPlannedOnTheDevice_GiveTheSameBits) {
+    TestScene s(40, 24);
+    Random random(12);
+    for (int m = 0; m < 3; ++m) s.addMedium(0.1 * random.vector(), dvec3(0.8));
+    for (int i = 0; i < 700; ++i)
+        s.addSphere(static_cast<std::uint32_t>(i % 3), 2.0 * random.vector(-1, 1), 0.8,
+                    i == 0 ? Profile::Smooth : Profile::Constant);
+    s.addPane(s.addMaterial(makeThin(0.5, dvec3(0.3, 0.6, 0.9))), 0, 2);
+    s.addDaylight();
+    const render::Result measured = render(s);
+    for (const char* budget : {"1024", "1"}) {
+        const render::Result planned =
+            render(s, {.method = "linked_list",
+                       .settings = {{"everyFrame", "true"}, {"budgetMiB", budget}}});
+        for (const char* key : {"stored", "surfaces", "longestList", "dropped"})
+            EXPECT_EQ(planned.counters.at(key), measured.counters.at(key)) << key;
+        EXPECT_EQ(computeHash(planned.image), computeHash(measured.image)) << budget << " MiB";
+    }
+}
+
 TEST_F(Determinism, BudgetBelowOneTile_IsAnInputError) {
     TestScene s(8, 8);
     const std::uint32_t medium = s.addMedium(1e-3);

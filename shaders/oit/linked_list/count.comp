@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the medium intervals of each pixel, a slice of the media at a time, and adds the surfaces
-// counted before.
+// Counts the medium intervals of each pixel, a slice of the media at a time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "media.glsl"
 
 void main() {
-    uint tile, firstPixel;
-    if (!beginColumn(tile, firstPixel)) return;
+    uint tile, slot, column;
+    if (!beginColumn(tile, slot, column)) return;
     uint counts[kRows];
     for (uint row = 0u; row < kRows; ++row) counts[row] = 0u;
     vec2 t;
@@ -30,10 +29,7 @@ void main() {
                 counts[row] += hitsBox(box, volume, row, t) ? 1u : 0u;
         }
     }
-    for (uint row = 0u; row < kRows; ++row) {
-        uint pixel = firstPixel + row * kTileSize;
-        if (kSurfaces && push.step == 0u)
-            counts[row] += UintArray(push.surfaceOffsets).at[pixel];
-        UintArray(push.offsets).at[pixel] += counts[row];
-    }
+    uint first = slot * kTileOffsets + column;
+    for (uint row = 0u; row < kRows; ++row)
+        UintArray(push.offsets).at[first + row * kTileSize] += counts[row];
 }

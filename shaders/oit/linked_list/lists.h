@@ -8,35 +8,58 @@
 BRUME_STRUCTS_BEGIN
 
 // A list entry is a uvec2: the bits of the distance at which it begins (a float >= 0, so that they
-// sort as an integer), and kind << kKindShift | index. Pixels are numbered tile by tile from the
-// band's first tile, 64 to a tile, row by row; the entries of pixel p are
-// entries[offsets[p] .. offsets[p + 1]), media first, then surfaces, each sorted; its surface
-// records are records[surfaceOffsets[p] .. surfaceOffsets[p + 1]).
+// sort as an integer), and kind << kKindShift | index. The tiles that have lists are numbered by
+// slots; slot s owns a run of blocks (ListTile), first entries, then surface records. Pixels are
+// numbered slot by slot, 64 to a tile, row by row. The entries of pixel i of a slot are
+// entries[offsets[i] .. offsets[i + 1]) of the tile's, media first, then surfaces, each sorted; its
+// records are records[surfaceOffsets[i] .. surfaceOffsets[i + 1]) of the tile's.
 BRUME_CONST uint kKindShift = 30u;
 BRUME_CONST uint kKindSphere = 0u;   // index into the sorted spheres
 BRUME_CONST uint kKindBox = 1u;      // index into the boxes
-BRUME_CONST uint kKindSurface = 2u;  // index into the surface records
+BRUME_CONST uint kKindSurface = 2u;  // index into the tile's surface records
 BRUME_CONST uint kIndexMask = 0x3fffffffu;
+
+BRUME_CONST uint kBlockBytes = 64u;
+BRUME_CONST uint kEntryBytes = 8u;
+BRUME_CONST uint kRecordBytes = 52u;
+BRUME_CONST uint kTileOffsets = 65u;  // of a slot: those of 64 pixels, and the end
 
 struct ListPush {
     uint step;         // surface passes: which mesh is drawn; count, store: first medium of the
                        // slice of a tile's media to visit; resolve: the round, from 0
-    uint firstSlot;    // of the band, among the tiles that have lists
-    uint tileCount;    // in the band
     uint roundCount;   // resolve
-    uint64_t tileMap;  // uint[screen tiles]: slot of each, or ~0; then uint[]: tile of each slot
-    uint64_t entries;  // uvec2[]
-    uint64_t offsets;  // uint[pixels + 1]: counts until they are summed
-    uint64_t surfaceOffsets;              // uint[pixels + 1]: counts until they are summed
+    float epsilon;     // resolve: radiance that may be missing where a pixel stops early; 0: none
+    float largestTint;  // of all media
+    uint64_t band;      // ListBand: the slots to visit
+    uint64_t tileMap;   // uint: how many slots; uint[screen tiles]: slot of each, or ~0; then
+                        // uint[slots]: the screen tile of each
+    uint64_t tiles;     // ListTile[slots]
+    uint64_t lists;     // blocks
+    uint64_t offsets;   // uint[kTileOffsets slots]: counts of media until they are summed
+    uint64_t surfaceOffsets;              // likewise, of surfaces
     uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
-    uint64_t records;                     // SurfaceRecord[]
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
     uint64_t boxOffsets, boxPairs;
     uint64_t counters;  // ListCounters
     uint64_t progress;  // uint[pixels]: media stored already, and kUnsortedBit
     uint64_t states;    // PixelState[pixels]: where unfinished pixels go on in the next round
-    float epsilon;      // resolve: radiance that may be missing where a pixel stops early; 0: none
-    float largestTint;  // of all media
+};
+
+// Where a tile's lists are.
+struct ListTile {
+    uint firstBlock;   // of its entries, in the memory of its band
+    uint recordBlock;  // of its surface records
+};
+
+// Slots whose lists are in memory together, and how many workgroups visit them: arguments of
+// indirect dispatches. Band 0 stands for all slots.
+struct ListBand {
+    uvec3 columns;       // an invocation per column of eight pixels
+    uvec3 laterColumns;  // the same, none where the first slice of the media is all
+    uvec3 pixels;        // a workgroup per tile
+    uvec3 slots;         // an invocation per tile
+    uint firstSlot;
+    uint slotCount;
 };
 
 // Some devices silently end all loops of an invocation after 65 535 iterations (counted for eight
@@ -85,17 +108,39 @@ BRUME_CONST uint kStageWalk = 2u;
 BRUME_CONST uint kStageDone = 3u;
 BRUME_CONST uint kStageLost = 4u;  // the device has ended loops by itself
 
+// Of one frame. Sums of 64 bits are two words, the low one first.
 struct ListCounters {
-    uint exhausted;  // pixels unfinished after the last round: the image is not exact, the host
-                     // must say so
-    uint stopped;    // pixels that stopped early
-    uint bound;      // bits of the largest radiance that one of them may miss
+    uint exhausted;    // pixels unfinished after the last round: the image is not exact, the host
+                       // must say so
+    uint stopped;      // pixels that stopped early
+    uint bound;        // bits of the largest radiance that one of them may miss
+    uint slots;        // tiles that have lists
+    uint blocks;       // that their lists want,
+    uint largestTile;  // and those of the tile that wants most
+    uint bands;        // that they take
+    uint longest;      // list of a pixel
+    uvec2 stored;      // entries
+    uvec2 dropped;     // entries that had no room
+    uvec2 surfaces;    // of the stored ones
 };
 
-struct TileTotals {
-    uint entries;
-    uint surfaces;
-    uint longest;
+// What totals.comp, place.comp and arguments.comp get to see: how the lists of a frame share the
+// memory.
+struct PlacePush {
+    uint64_t tileMap, tiles, offsets, surfaceOffsets, counters;  // as in ListPush
+    uint64_t blocks;     // uint[slots + 1]: what each tile wants; the sums of those before
+    uint64_t bands;      // ListBand[bandCount + 1]
+    uint64_t draws;      // DrawArguments[bandCount][drawCount]
+    uint64_t binTotals;  // BinTotals[2]
+    uint slotCapacity;
+    uint bandCount;      // that are recorded
+    uint blockCapacity;  // of the memory that they share
+    uint drawCount;      // surfaces; 0: there are none
+};
+
+// VkDrawIndirectCommand.
+struct DrawArguments {
+    uint vertices, instances, firstVertex, firstInstance;
 };
 
 // So many media the resolve loads once per ray, because on some devices a load from a buffer costs
@@ -109,7 +154,10 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 128);
-static_assert(sizeof(brume::shader::SurfaceRecord) == 52);
+static_assert(sizeof(brume::shader::PlacePush) == 88);
+static_assert(sizeof(brume::shader::ListBand) == 56);
+static_assert(sizeof(brume::shader::ListCounters) == 56);
+static_assert(sizeof(brume::shader::SurfaceRecord) == brume::shader::kRecordBytes);
 static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif
 #endif

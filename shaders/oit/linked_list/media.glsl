@@ -22,13 +22,11 @@ const uint kRows = kTileSize;
 Ray columnRays[kRows];
 float columnLimits[kRows];  // media that begin behind this distance are not seen
 
-// False outside the band.
-bool beginColumn(out uint tile, out uint firstPixel) {
+// False outside the band. `column`: of the tile, and the first of its pixels.
+bool beginColumn(out uint tile, out uint slot, out uint column) {
     uint thread = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
-    uint bandTile = thread / kTileSize;
-    uint column = thread % kTileSize;
-    tile = tileAt(min(bandTile, push.tileCount - 1u));
-    firstPixel = bandTile * 64u + column;
+    column = thread % kTileSize;
+    bool isInBand = findSlot(thread / kTileSize, slot, tile);
     uvec2 corner =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);
     for (uint row = 0u; row < kRows; ++row) {
@@ -37,7 +35,7 @@ bool beginColumn(out uint tile, out uint firstPixel) {
         columnRays[row] = makeRay(vec2(pixel) + 0.5);
         columnLimits[row] = inside ? texelFetch(opaqueT, ivec2(pixel), 0).x : -1.0;
     }
-    return bandTile < push.tileCount;
+    return isInBand;
 }
 
 // The part of list[first .. last) that this dispatch visits.

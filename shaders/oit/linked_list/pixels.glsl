@@ -9,24 +9,42 @@
 layout(push_constant, scalar) uniform Push { ListPush push; };
 layout(buffer_reference, scalar) buffer RecordArray { SurfaceRecord at[]; };
 layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
+layout(buffer_reference, scalar) readonly buffer BandBlock { ListBand band; };
+layout(buffer_reference, scalar) readonly buffer TileArray { ListTile at[]; };
 
 // -0 is 0.
 uint distanceKey(float t) { return floatBitsToUint(t) & 0x7fffffffu; }
 
-// Slots of tiles count from the band's first.
+// Of a slot.
 uint tileAt(uint slot) {
-    return UintArray(push.tileMap).at[frame.tiles.x * frame.tiles.y + push.firstSlot + slot];
+    return UintArray(push.tileMap).at[1u + frame.tiles.x * frame.tiles.y + slot];
 }
-uint bandSlot(uvec2 pixel) {
+// The workgroups of a dispatch or its invocations may be a few more than the band has slots for:
+// false for those.
+bool findSlot(uint bandSlot, out uint slot, out uint tile) {
+    ListBand band = BandBlock(push.band).band;
+    slot = band.firstSlot + min(bandSlot, max(band.slotCount, 1u) - 1u);
+    tile = tileAt(slot);
+    return bandSlot < band.slotCount;
+}
+
+// False where the pixel's tile has no lists in this band; else its slot, and its place therein.
+bool findPixel(uvec2 pixel, out uint slot, out uint inside) {
     uvec2 tile = pixel / kTileSize;
-    return UintArray(push.tileMap).at[tile.y * frame.tiles.x + tile.x] - push.firstSlot;
+    inside = pixel.y % kTileSize * kTileSize + pixel.x % kTileSize;
+    slot = UintArray(push.tileMap).at[1u + tile.y * frame.tiles.x + tile.x];
+    ListBand band = BandBlock(push.band).band;
+    return slot - band.firstSlot < band.slotCount;
 }
 
-uint pixelIndex(uvec2 pixel) {
-    uvec2 inside = pixel % kTileSize;
-    return bandSlot(pixel) * 64u + inside.y * kTileSize + inside.x;
+// Both of the slot's tile.
+Uvec2Array entriesOf(uint slot) {
+    return Uvec2Array(push.lists +
+                      uint64_t(TileArray(push.tiles).at[slot].firstBlock) * kBlockBytes);
 }
-
-bool isInBand(uvec2 pixel) { return bandSlot(pixel) < push.tileCount; }
+RecordArray recordsOf(uint slot) {
+    return RecordArray(push.lists +
+                       uint64_t(TileArray(push.tiles).at[slot].recordBlock) * kBlockBytes);
+}
 
 #endif

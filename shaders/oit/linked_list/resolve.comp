@@ -30,6 +30,8 @@ const uvec2 kNoEntry = uvec2(0x71800000u, 0u);  // at kFar
 
 RealRay ray;
 vec3 rayDirection;  // rounded
+Uvec2Array entries;   // of the tile
+RecordArray records;  // likewise
 uint first;       // of the list
 uint mediaCount;  // its first part
 uint count;       // with the surfaces
@@ -37,9 +39,9 @@ uint iterations = 0u;
 PixelState state;
 Real position;  // of the last event; kept in the state between rounds
 
-uvec2 loadEntry(uint i) { return Uvec2Array(push.entries).at[first + i]; }
-void storeEntry(uint i, uvec2 entry) { Uvec2Array(push.entries).at[first + i] = entry; }
-SurfaceRecord loadRecord(uvec2 entry) { return RecordArray(push.records).at[entry.y & kIndexMask]; }
+uvec2 loadEntry(uint i) { return entries.at[first + i]; }
+void storeEntry(uint i, uvec2 entry) { entries.at[first + i] = entry; }
+SurfaceRecord loadRecord(uvec2 entry) { return records.at[entry.y & kIndexMask]; }
 
 uvec2 mediumEntry() { return state.medium < mediaCount ? loadEntry(state.medium) : kNoEntry; }
 uvec2 surfaceEntry() {
@@ -110,18 +112,22 @@ void advance(Real limit) {
 }
 
 void main() {
-    uint bandTile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    uint tile = tileAt(min(bandTile, push.tileCount - 1u));
+    uint slot, tile;
+    bool isInBand =
+        findSlot(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, slot, tile);
     uvec2 pixel =
         uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
-    if (bandTile >= push.tileCount || any(greaterThanEqual(pixel, frame.size))) return;
-    uint index = bandTile * 64u + gl_LocalInvocationIndex;
-    first = UintArray(push.offsets).at[index];
-    count = UintArray(push.offsets).at[index + 1u] - first;
+    if (!isInBand || any(greaterThanEqual(pixel, frame.size))) return;
+    uint index = slot * 64u + gl_LocalInvocationIndex;
+    uint listIndex = slot * kTileOffsets + gl_LocalInvocationIndex;
+    entries = entriesOf(slot);
+    if (kSurfaces) records = recordsOf(slot);
+    first = UintArray(push.offsets).at[listIndex];
+    count = UintArray(push.offsets).at[listIndex + 1u] - first;
     mediaCount = count;
     if (kSurfaces)
-        mediaCount -= UintArray(push.surfaceOffsets).at[index + 1u] -
-                      UintArray(push.surfaceOffsets).at[index];
+        mediaCount -= UintArray(push.surfaceOffsets).at[listIndex + 1u] -
+                      UintArray(push.surfaceOffsets).at[listIndex];
     ray = makeRealRay(vec2(pixel) + 0.5);
     rayDirection = vec3(ray.direction);
     Real limit = Real(min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar));

@@ -13,6 +13,7 @@ void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     bool isSeen =
         point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
-    if (!isSeen || !isInBand(pixel)) return;
-    atomicAdd(UintArray(push.surfaceOffsets).at[pixelIndex(pixel)], 1u);
+    uint slot, inside;
+    if (!isSeen || !findPixel(pixel, slot, inside)) return;
+    atomicAdd(UintArray(push.surfaceOffsets).at[slot * kTileOffsets + inside], 1u);
 }

@@ -36,13 +36,15 @@ void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     bool isSeen =
         point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
-    if (!isSeen || !isInBand(pixel)) return;
-    uint index = pixelIndex(pixel);
-    uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[index], 1u);
+    uint slot, inside;
+    if (!isSeen || !findPixel(pixel, slot, inside)) return;
+    uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[slot * 64u + inside], 1u);
+    uint index = slot * kTileOffsets + inside;
     uint recordIndex = UintArray(push.surfaceOffsets).at[index] + arrival;
-    uint behind = UintArray(push.surfaceOffsets).at[index + 1u] - recordIndex;
-    uint slot = UintArray(push.offsets).at[index + 1u] - behind;
-    RecordArray(push.records).at[recordIndex] = makeRecord(point);
-    Uvec2Array(push.entries).at[slot] =
+    uint end = UintArray(push.surfaceOffsets).at[index + 1u];
+    if (recordIndex >= end) return;  // no room
+    uint entry = UintArray(push.offsets).at[index + 1u] - (end - recordIndex);
+    recordsOf(slot).at[recordIndex] = makeRecord(point);
+    entriesOf(slot).at[entry] =
         uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);
 }

@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums the counts of each tile, from which the host plans memory and bands.
+// How many blocks of memory the lists of each tile want.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "../../common/bindings.glsl"
-#include "pixels.glsl"
+#include "place.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool kSurfaces = false;
-layout(buffer_reference, scalar) writeonly buffer TotalArray { TileTotals at[]; };
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x;
-    if (tile >= push.tileCount) return;
-    TileTotals totals = TileTotals(0u, 0u, 0u);
-    for (uint i = 0u; i < 64u; ++i) {
-        uint count = UintArray(push.offsets).at[tile * 64u + i];
-        totals.entries += count;
-        totals.longest = max(totals.longest, count);
-        if (kSurfaces) totals.surfaces += UintArray(push.surfaceOffsets).at[tile * 64u + i];
+    uint slot = gl_GlobalInvocationID.x;
+    ListCounters counted = CounterBlock(push.counters).counters;
+    if (slot >= counted.slots) return;
+    uint entries = 0u, surfaces = 0u, longest = 0u;
+    for (uint i = slot * kTileOffsets; i < slot * kTileOffsets + 64u; ++i) {
+        uint count = UintArray(push.offsets).at[i];
+        if (push.drawCount > 0u) {
+            uint faces = UintArray(push.surfaceOffsets).at[i];
+            surfaces += faces;
+            count += faces;
+        }
+        entries += count;
+        longest = max(longest, count);
     }
-    TotalArray(push.counters).at[tile] = totals;
+    uint blocks = entryBlocks(entries) + recordBlocks(surfaces);
+    UintArray(push.blocks).at[slot] = blocks;
+    atomicMax(CounterBlock(push.counters).counters.largestTile, blocks);
+    atomicMax(CounterBlock(push.counters).counters.longest, longest);
 }

@@ -37,7 +37,7 @@ void main() {
             if (kScatter) {
                 uint slot = UintArray(push.counts).at[tile] +
                             atomicAdd(UintArray(push.cursors).at[tile], 1u);
-                UintArray(push.pairs).at[slot] = i;
+                if (slot < UintArray(push.counts).at[tile + 1u]) UintArray(push.pairs).at[slot] = i;
             } else {
                 atomicAdd(UintArray(push.counts).at[tile], 1u);
             }

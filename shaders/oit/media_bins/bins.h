@@ -11,10 +11,25 @@ struct BinPush {
     uint64_t values;   // uint[count]: indices in sorted order
     uint64_t rects;    // uvec2[count]: first and last tile, x | y << 16; first > last: not visible
     uint64_t counts;   // uint[tiles]: how many media touch each tile; when scattering, the offsets
+                       // that fit the memory, uint[tiles + 1]
     uint64_t cursors;  // uint[tiles]: how many are scattered already
     uint64_t pairs;    // uint[]: indices of the media of each tile
     uint64_t limits;   // float[tiles]: m, what begins behind is hidden by something opaque
     uint count;
+};
+
+// What the lists of a frame want, whether there is memory for it or not.
+struct BinTotals {
+    uint pairs;    // of tile and medium
+    uint longest;  // list
+};
+
+struct FitPush {
+    uint64_t wanted;  // uint[tiles + 1]: where each tile's list would begin
+    uint64_t fitted;  // uint[tiles + 1]: where it begins, so that all end within the memory
+    uint64_t totals;  // BinTotals
+    uint tileCount;
+    uint capacity;    // pairs
 };
 
 // One invocation bins one medium to the tile rows y with y % kBinRowSlices == its slice: bounds the

@@ -15,7 +15,7 @@ float limits[kRows];  // distance of the opaque surface; < 0 outside the image
 bool beginColumn(out uint tile) {
     uint thread = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
     uint slot = thread / kTileSize;
-    if (slot >= push.tileCount) return false;
+    if (slot >= tileCount()) return false;
     tile = tileAt(slot);
     corner = tileCorner(tile) + uvec2(thread % kTileSize, 0u);
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {

@@ -26,7 +26,8 @@ layout(buffer_reference, scalar) buffer CounterBlock { TileCounters counters; };
 vec3 perChannel(vec3 x) { return kColoured ? x : vec3(x.x); }
 
 // The tile that a slot of this dispatch stands for.
-uint tileAt(uint slot) { return UintArray(push.tiles).at[slot]; }
+uint tileCount() { return UintArray(push.tiles).at[kTileListCount]; }
+uint tileAt(uint slot) { return UintArray(push.tiles).at[kTileListHead + slot]; }
 uvec2 tileCorner(uint tile) {
     return uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize;
 }
@@ -34,7 +35,7 @@ uvec2 tileCorner(uint tile) {
 // For passes with one workgroup per tile and one invocation per pixel: false outside the image.
 bool beginPixel(out uint tile, out uvec2 pixel) {
     uint slot = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (slot >= push.tileCount) return false;
+    if (slot >= tileCount()) return false;
     tile = tileAt(slot);
     pixel = tileCorner(tile) +
             uvec2(gl_LocalInvocationIndex % kTileSize, gl_LocalInvocationIndex / kTileSize);

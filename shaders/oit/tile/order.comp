@@ -31,7 +31,7 @@ uint exchange(uint window, float key, uint index) {
 
 void main() {
     uint slot = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
-    if (slot >= push.tileCount) return;
+    if (slot >= tileCount()) return;
     uint tile = tileAt(slot);
     RealRay ray = makeMiddleRay(tile);
     uint first = UintArray(push.sphereOffsets).at[tile];

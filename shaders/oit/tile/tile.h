@@ -7,15 +7,30 @@
 BRUME_STRUCTS_BEGIN
 
 struct TilePush {
-    uint64_t tiles;                       // uint[tileCount]: which tiles to visit
+    uint64_t tiles;                       // tile list: which to visit
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
     uint64_t sphereEnds;  // uint[], the pairs in the order in which tiles with mixtures leave them
     uint64_t boxOffsets, boxPairs;
     uint64_t classes;   // uint[tiles], classify: largest class that a pixel needs
     uint64_t counters;  // TileCounters
-    uint tileCount;
     float epsilon;      // pixels stop at transmittances below it
     float largestTint;  // of all media
+};
+
+// A list of tiles in memory is an array of uint: the workgroups in x, y and z that visit them, as
+// arguments of an indirect dispatch; likewise with one invocation per tile; how many tiles there
+// are; these.
+BRUME_CONST uint kTileListPerTile = 3u;
+BRUME_CONST uint kTileListCount = 6u;
+BRUME_CONST uint kTileListHead = 7u;
+
+// How plan.comp and arguments.comp fill one.
+struct TilePlanPush {
+    uint64_t classes;      // uint[tiles]
+    uint64_t list;         // tile list, or tile map of pixel lists
+    uint tileCount;        // of the screen
+    uint classMask;        // bits of the classes that go there
+    uint threadsPerTile;
 };
 
 // What the pixels of a tile need, in rising order of cost.
@@ -45,6 +60,6 @@ BRUME_CONST uint kBindingTileResult = 8u;  // RGBA32F
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::TilePush) == 80);
+static_assert(sizeof(brume::shader::TilePush) == 72);
 #endif
 #endif

@@ -176,7 +176,15 @@ void RenderCommand::renderNumbered(int frame, const std::filesystem::path& outpu
     renderOne(output);
 }
 
+// Sequences usually go to a folder of their own.
+void makeFolderOf(const std::filesystem::path& output) {
+    std::error_code error;
+    if (output.has_parent_path()) std::filesystem::create_directories(output.parent_path(), error);
+    if (error) throw failure("writing image", output.parent_path().string(), error.message());
+}
+
 void RenderCommand::renderOne(const std::filesystem::path& output) {
+    makeFolderOf(output);
     Rendered rendered = usesReference() ? renderByReference() : renderOnDevice();
     if (mArguments.explain) fmt::print("{}\n", rendered.explanation);
     if (!mArguments.output.empty()) writeImage(output, rendered.frame.image);
