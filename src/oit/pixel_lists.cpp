@@ -50,8 +50,6 @@ gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& na
              .constants = std::move(constants)}};
 }
 
-}
-
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
                                           std::span<const std::uint32_t> spirv,
                                           std::vector<gpu::NumberedConstant> constants = {}) {
