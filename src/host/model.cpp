@@ -27,7 +27,9 @@ double largestExtinction(const scene::Medium& medium) {
 }
 
 /// Methods that plan a frame from one before it, for which they wait.
-bool needsMeasuring(std::string_view method) { return method == "tile" || method == "linked_list"; }
+bool needsMeasuring(std::string_view method) {
+    return method == "tile" || method == "linked_list" || method == "march";
+}
 
 }  // namespace
 
