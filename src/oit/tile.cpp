@@ -171,7 +171,7 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
                                         spv::oit_tile_lit_volumes_comp_float64),
-                                 kImages),
+                                 kImages, {mNeeds.lamps}),
                     pixels};
         mClassifyBoxes = makePipeline(
             "classify_boxes",
