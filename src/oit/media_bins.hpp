@@ -52,6 +52,8 @@ class MediaBins {
     /// Spheres or boxes of the tile that has most of them.
     std::uint32_t longestList() const { return std::max(mSpheres.longest, mBoxes.longest); }
     std::uint64_t bytes() const;
+    /// Of the lists themselves; part of bytes().
+    std::uint64_t pairBytes() const { return mSpheres.pairs.bytes() + mBoxes.pairs.bytes(); }
 
   private:
     struct Set {

@@ -472,7 +472,8 @@ std::optional<double> Tile::errorBound() {
 std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
-    bytes["bins"] = mBins.bytes() + mSphereEnds.bytes();
+    bytes["pairs"] = mBins.pairBytes();
+    bytes["bins"] = mBins.bytes() - bytes["pairs"] + mSphereEnds.bytes();
     bytes["tiles"] = mOrdered.tiles.bytes() + mVolumes.tiles.bytes() + mClasses.bytes();
     for (const Group& group : mMixed) bytes["tiles"] += group.tiles.bytes();
     return bytes;

@@ -314,7 +314,11 @@ TEST_F(Tile, Memory_IsFourBytesPerPairAndNothingPerPixel) {
         const std::uint64_t perTile = 2 * 3 * 4 + 2 * 4, perSphere = 56 + 8 + 8 + 16;
         EXPECT_EQ(result.bytes.count("lists"), 0u);
         EXPECT_GT(pairs, tiles);
-        EXPECT_LE(result.bytes.at("bins") + result.bytes.at("tiles"),
+        const std::string text =
+            render::Renderer(device(), s, mMethod, log()).explain();
+        EXPECT_NE(text.find("methodPerPixel       0.00\n"), std::string::npos) << text;
+        EXPECT_NE(text.find("perPair              4.00\n"), std::string::npos) << text;
+        EXPECT_LE(result.bytes.at("pairs") + result.bytes.at("bins") + result.bytes.at("tiles"),
                   4 * pairs + perTile * tiles + perSphere * 200 + (1 << 16));
     }
 }
