@@ -106,6 +106,19 @@ TEST_F(Tile, ConstantSpheresThatMix_AreExactWithoutLists) {
     EXPECT_GT(countListTiles(makeCloud(240, 3, Profile::Constant, 3)), 0u);
 }
 
+TEST_F(Tile, WithoutOverlap_SpheresAreTakenAsOneBehindTheOther) {
+    const scene::Settings plain = {{"epsilon", "0"}, {"overlap", "false"}};
+    mMethod.settings = plain;
+    expectExact(makeRow(0.4), "apart");
+    const TestScene mixture = makeCloud(60, 3, Profile::Smooth);
+    const render::Result result = renderTile(mixture, plain);
+    EXPECT_EQ(result.counters.at("tilesMixed") + result.counters.at("tilesLists"), 0u);
+    EXPECT_EQ(result.errorBound, std::nullopt);
+    const Difference difference = measure(mixture);
+    EXPECT_EQ(difference.nonFinite, 0u);
+    EXPECT_GT(difference.rmse, 1e-4) << "that they mix is lost";
+}
+
 TEST_F(Tile, SpheresOfTwoSourcesThatOverlap_GetListsAndAreExact) {
     TestScene s = makeRow(0.6);
     expectExact(s, "row");

@@ -7,6 +7,8 @@
 #include "../../common/shadowing.glsl"
 #include "column.glsl"
 
+layout(constant_id = 6) const bool kOverlap = true;  // false: taken as one behind the other
+
 // The media last met that share a source, and where they and those before them end.
 struct Run {
     uint medium;
@@ -54,7 +56,7 @@ void main() {
         before = index;
         SphereData sphere = spheres[index];
         isSmooth = isSmooth || (kSmooth && sphere.profile == kProfileSmooth);
-        if (!kOneSource) [[unroll]]
+        if (!kOneSource && kOverlap) [[unroll]]
             for (uint row = 0u; row < kRows; ++row) meetSphere(row, sphere);
     }
     k = UintArray(push.boxOffsets).at[tile];
