@@ -49,7 +49,7 @@ void addStep(MediumData medium, uint shares, float density, vec3 tint, float at,
              float distance) {
     vec3 extinction = density * medium.extinction;
     if (!kColoured) extinction = extinction.xxx;
-    vec3 depth = min(extinction * distance, vec3(80.0));
+    vec3 depth = min(extinction * distance, vec3(1e30));
     vec3 decay = kColoured ? exp(-depth) : vec3(exp(-depth.x));
     vec3 light = scatteredRadiance(medium, shares, origin + direction * at, direction);
     vec3 source = density * tint * (medium.extinction * medium.albedo * light + medium.emission);
