@@ -32,7 +32,9 @@ void takeSurface(float t, vec3 transmittance, uint id) {
     takePiece(t, t, -log(max(transmittance, vec3(1e-6))), id);
 }
 
-void finishCaster(bool isLast) {}
+bool hasRoom(uint pieces) { return true; }
+
+void finishPieces(bool isLast) {}
 
 #include "../common/walk.glsl"
 

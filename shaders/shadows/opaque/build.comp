@@ -17,15 +17,21 @@ void main() {
     float nearest = 3.0e38;
     uint k = UintArray(map.triangleOffsets).at[b.tile];
     uint last = UintArray(map.triangleOffsets).at[b.tile + 1u];
-    for (; k < last; ++k) {
-        ShadowTriangle triangle =
-            ShadowTriangles(map.triangles).at[UintArray(map.trianglePairs).at[k]];
-        ShadowMaterial material = ShadowMaterials(map.materials).at[triangle.material];
+    // Textures are looked at when each ray has found its next triangle: some devices work through
+    // both sides of an if, with all texels that they look at together.
+    while (k < last) {
+        ShadowTriangle triangle;
         TriangleHit hit;
-        if (material.type == kMaterialOpaque && intersectTriangle(ray, triangle, hit) &&
-            hit.t > 0.0 && hit.t < nearest &&
-            surfaceTransmittance(triangle, material, hit.weights) == vec3(0))
-            nearest = hit.t;
+        bool isMet = false;
+        for (; k < last && !isMet; ++k) {
+            triangle = ShadowTriangles(map.triangles).at[UintArray(map.trianglePairs).at[k]];
+            isMet = ShadowMaterials(map.materials).at[triangle.material].type == kMaterialOpaque &&
+                    intersectTriangle(ray, triangle, hit) && hit.t > 0.0 && hit.t < nearest;
+        }
+        for (bool isOne = isMet; isOne; isOne = false) {
+            ShadowMaterial material = ShadowMaterials(map.materials).at[triangle.material];
+            if (surfaceTransmittance(triangle, material, hit.weights) == vec3(0)) nearest = hit.t;
+        }
     }
     Distances(push.target).at[b.index] = nearest;
 }

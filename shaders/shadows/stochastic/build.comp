@@ -61,7 +61,9 @@ void takeSurface(float t, vec3 transmittance, uint id) {
     }
 }
 
-void finishCaster(bool isLast) {}
+bool hasRoom(uint pieces) { return true; }
+
+void finishPieces(bool isLast) {}
 
 #include "../common/walk.glsl"
 

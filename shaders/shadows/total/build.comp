@@ -13,7 +13,9 @@ vec3 depthSum = vec3(0), surfaceProduct = vec3(1);
 void takePiece(float t0, float t1, vec3 depth, uint id) { depthSum += depth; }
 void takeSurface(float t, vec3 transmittance, uint id) { surfaceProduct *= transmittance; }
 
-void finishCaster(bool isLast) {}
+bool hasRoom(uint pieces) { return true; }
+
+void finishPieces(bool isLast) {}
 
 #include "../common/walk.glsl"
 

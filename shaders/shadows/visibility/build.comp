@@ -2,8 +2,8 @@
 // Adds up everything along a texel's ray to a piecewise curve of optical depth and takes out the
 // nodes that change its transmittance least until few enough are left.
 //
-// Nodes live in arrays that only unrolled loops index, so that they can stay in registers; what a
-// caster takes away is put down first and added by one copy of that code.
+// Nodes live in arrays that only unrolled loops index, so that they can stay in registers; what
+// casters take away is put down first and added by one copy of that code.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -24,8 +24,8 @@ float nodeZ[kCapacity];
 vec3 nodeBefore[kCapacity], nodeBehind[kCapacity];
 uint nodeCount = 0u;
 
-// What the caster takes away: a piece of a medium, or (begin = end) a surface.
-const uint kMostPieces = 32u;  // more than a ray crosses cells of a brick
+// What casters take away: pieces of media, or (begin = end) surfaces.
+const uint kMostPieces = 64u;
 vec2 pieceRange[kMostPieces];
 vec3 pieceDepth[kMostPieces];
 uint pieceCount = 0u;
@@ -152,7 +152,9 @@ void takeSurface(float t, vec3 transmittance, uint id) {
     putDown(vec2(t), -log(max(transmittance, vec3(1e-30))));
 }
 
-void finishCaster(bool isLast) {
+bool hasRoom(uint pieces) { return pieceCount + pieces <= kMostPieces; }
+
+void finishPieces(bool isLast) {
     uint count = pieceCount + (isLast ? 1u : 0u);
     for (uint i = 0u; i < count; ++i) {
         bool isPiece = i < pieceCount;
