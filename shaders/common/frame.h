@@ -43,6 +43,7 @@ struct LightData {
     uint type;
     vec3 position;
     float radius;    // m; E = I / max(d^2, radius^2)
+    vec3 positionLo;  // what rounding has taken from the position
     vec3 direction;  // unit, in which the light travels
     float cosInner;
     float cosOuter;
@@ -89,7 +90,7 @@ BRUME_STRUCTS_END
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::FrameData) == 200);
 static_assert(offsetof(brume::shader::FrameData, size) == 140);
-static_assert(sizeof(brume::shader::LightData) == 64);
+static_assert(sizeof(brume::shader::LightData) == 72);
 static_assert(sizeof(brume::shader::MediumData) == 44);
 static_assert(sizeof(brume::shader::VolumeData) == 76);
 static_assert(sizeof(brume::shader::BoxData) == 52);

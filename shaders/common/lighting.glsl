@@ -7,14 +7,13 @@
 #include "phase.glsl"
 #include "shadowing.glsl"
 
-// Irradiance on a plane facing a light at `position`, with nothing in between; `travel`: direction
-// of the light there.
-vec3 freeIrradiance(LightData light, vec3 position, out vec3 travel) {
+// Irradiance on a plane facing a light, at `offset` from it and with nothing in between; `travel`:
+// direction of the light there.
+vec3 irradianceBeside(LightData light, vec3 offset, out vec3 travel) {
     if (light.type == kLightDirectional) {
         travel = light.direction;
         return light.color;
     }
-    vec3 offset = position - light.position;
     float distance2 = dot(offset, offset);
     travel = distance2 > 0.0 ? offset * inversesqrt(distance2) : light.direction;
     float falloff = 1.0;
@@ -25,6 +24,18 @@ vec3 freeIrradiance(LightData light, vec3 position, out vec3 travel) {
         falloff = s * s;
     }
     return light.color * (falloff / max(distance2, light.radius * light.radius));
+}
+
+// The same at `position`.
+vec3 freeIrradiance(LightData light, vec3 position, out vec3 travel) {
+    return irradianceBeside(light, position - light.position, travel);
+}
+
+// From a light to a place whose rounding is known. Close to a light that almost touches a surface,
+// the cosine there is a difference of positions that agree in most digits.
+vec3 fineOffset(LightData light, vec3 position, vec3 positionLo) {
+    precise vec3 offset = (position - light.position) + (positionLo - light.positionLo);
+    return offset;
 }
 
 // The same, shadowed; `index`: of the light.
@@ -52,22 +63,25 @@ vec3 mediumShare(uint shares, uint index, vec3 position) {
 // `shares`: of its sphere, or kNoShares.
 vec3 scatteredRadiance(MediumData medium, uint shares, vec3 position, vec3 rayDirection) {
     vec3 sum = frame.ambient;
-    for (uint i = 0u; i < frame.lightCount; ++i) {
+    for (uint i = 0u; i < lightCount(); ++i) {
         vec3 travel;
-        vec3 irradiance = freeIrradiance(lights[i], position, travel);
+        vec3 irradiance = freeIrradiance(lightAt(i), position, travel);
         sum += irradiance * mediumShare(shares, i, position) *
                phaseFunction(medium.phase, medium.g, -dot(travel, rayDirection));
     }
     return sum;
 }
 
-// Lambert reflection with albedo 1; `normal` unit, towards the viewer.
-vec3 diffuseRadiance(vec3 position, vec3 normal) {
+// Lambert reflection with albedo 1; `normal` unit, towards the viewer; `positionLo`: what rounding has
+// taken from `position`.
+vec3 diffuseRadiance(vec3 position, vec3 positionLo, vec3 normal) {
     vec3 sum = frame.ambient;
-    for (uint i = 0u; i < frame.lightCount; ++i) {
+    for (uint i = 0u; i < lightCount(); ++i) {
         vec3 travel;
         vec3 lit = position + normal * shadowOffset(i, position);
-        vec3 irradiance = lightIrradiance(lights[i], i, lit, travel);
+        LightData light = lightAt(i);
+        vec3 irradiance = irradianceBeside(light, fineOffset(light, position, positionLo), travel) *
+                          transmittance(i, lit);
         sum += irradiance * (max(-dot(travel, normal), 0.0) * 0.3183098861837907);
     }
     return sum;

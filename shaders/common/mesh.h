@@ -50,6 +50,8 @@ BRUME_CONST uint kBindingTriangles = 14u;  // uint[pixels]: sums of triangleHash
 
 // Specialization constant of everything that shades surfaces: does any of them mirror?
 BRUME_CONST uint kConstantGlossy = 65u;
+// Has any of them a texture?
+BRUME_CONST uint kConstantTextured = 69u;
 
 // Bytes from one MeshData or MaterialData to the next: uniform blocks may start at multiples of it
 // on every device.

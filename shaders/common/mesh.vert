@@ -3,6 +3,7 @@
 // distance by intersecting the ray with it instead of interpolating.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define BRUME_SURFACE_PASS
 #include "bindings.glsl"
 #include "camera.glsl"
 #include "mesh.h"

@@ -2,6 +2,7 @@
 // What a ray meets on a triangle: distance, side, and the light that the surface sends to the eye.
 #ifndef BRUME_COMMON_SURFACE_GLSL
 #define BRUME_COMMON_SURFACE_GLSL
+#define BRUME_SURFACE_PASS
 #include "camera.glsl"
 #include "environment.glsl"
 #include "glass.glsl"
@@ -19,10 +20,12 @@ layout(binding = kBindingColorTexture) uniform sampler2D colorTexture;
 layout(binding = kBindingEmissionTexture) uniform sampler2D emissionTexture;
 layout(binding = kBindingEnvironment) uniform sampler2D environmentMap;
 layout(constant_id = kConstantGlossy) const bool kGlossy = true;
+layout(constant_id = kConstantTextured) const bool kTextured = true;
 
 struct SurfacePoint {
     MaterialData material;
     vec3 position;
+    vec3 positionLo;  // what rounding has taken from it
     vec3 normal;  // unit, towards the viewer
     vec4 color;   // of the texture
     float t;      // distance along the ray
@@ -42,9 +45,12 @@ SurfacePoint findSurfacePoint() {
     point.isFront = facing < Real(0);
     point.t = float(t);
     point.tLo = findLo(t);
-    point.position = vec3(ray.origin + ray.direction * t);
+    Real3 position = ray.origin + ray.direction * t;
+    point.position = vec3(position);
+    point.positionLo = vec3(position - Real3(point.position));
     point.material = material;
-    point.color = textureLod(colorTexture, uv, 0.0);
+    point.color = vec4(1);
+    if (kTextured) point.color = textureLod(colorTexture, uv, 0.0);
     if (point.color.a * material.coverage < material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
     point.normal = dot(n, direction) > 0.0 ? -n : n;
@@ -52,12 +58,14 @@ SurfacePoint findSurfacePoint() {
 }
 
 vec3 emittedRadiance(SurfacePoint point) {
-    return point.material.emission * textureLod(emissionTexture, uv, 0.0).rgb;
+    vec3 texel = vec3(1);
+    if (kTextured) texel = textureLod(emissionTexture, uv, 0.0).rgb;
+    return point.material.emission * texel;
 }
 
 // Lambert reflection and emission.
 vec3 sentRadiance(SurfacePoint point, vec3 albedo) {
-    return albedo * point.color.rgb * diffuseRadiance(point.position, point.normal) +
+    return albedo * point.color.rgb * diffuseRadiance(point.position, point.positionLo, point.normal) +
            emittedRadiance(point);
 }
 
@@ -78,10 +86,12 @@ Gloss findGloss(SurfacePoint point) {
     gloss.radiance = share * environmentRadiance(environmentMap,
                                                  direction + 2.0 * cosine * point.normal);
     // Lights do not reach the inner side of a solid.
-    for (uint i = 0u; i < frame.lightCount && (isPane || point.isFront); ++i) {
+    for (uint i = 0u; i < lightCount() && (isPane || point.isFront); ++i) {
         vec3 travel;
         vec3 lit = point.position + point.normal * shadowOffset(i, point.position);
-        vec3 irradiance = lightIrradiance(lights[i], i, lit, travel);
+        LightData light = lightAt(i);
+        vec3 offset = fineOffset(light, point.position, point.positionLo);
+        vec3 irradiance = irradianceBeside(light, offset, travel) * transmittance(i, lit);
         gloss.radiance += irradiance * highlight(point.normal, -direction, -travel,
                                                  point.material.ior, point.material.roughness,
                                                  isPane);

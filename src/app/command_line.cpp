@@ -105,6 +105,7 @@ void addBench(CLI::App& app, Invocation& invocation) {
     command->add_option("--shadows", a.shadows, "Measure these shadow stores at points, or all")->delimiter(',');
     command->add_option("--suite", a.suites, "Named suites of rows (see docs/performance.md), or all")
         ->delimiter(',');
+    command->add_flag("--gpu", a.onGpu, "Fail unless the device is a GPU, instead of measuring a processor");
     command->add_flag("--quick", a.isQuick, "Suites at small sizes: minutes on two cores");
     command->add_option("--shadow", a.shadow, "Shadow store of all lights, or none");
     command->add_option("--truth", a.truth, "Scene whose reference errors are against");
@@ -231,6 +232,16 @@ int runGuarded(const Invocation& invocation) {
 }
 
 }  // namespace
+
+BenchArguments parseBenchCommand(std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    Invocation invocation;
+    if (words.size() < 2 || words[1] != "bench" ||
+        parse(static_cast<int>(argv.size()), argv.data(), invocation))
+        throw inputError("reading options", words.empty() ? "" : words[0], "not a bench command");
+    return invocation.bench;
+}
 
 int run(int argc, char** argv) {
     Invocation invocation;

@@ -2,13 +2,10 @@
 #include <fmt/format.h>
 
 #include <app/session.hpp>
-#include <charconv>
 #include <cstdlib>
 
 namespace brume::app {
 namespace {
-
-constexpr int kMaxImageSize = 16384;
 
 std::string readEnvironment(const char* name) {
     const char* value = std::getenv(name);
@@ -27,13 +24,6 @@ std::filesystem::path findPipelineCacheFile() {
     return error ? std::filesystem::path() : folder / "pipelines.bin";
 }
 
-std::optional<int> parseInteger(std::string_view text) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 }  // namespace
 
 gpu::DeviceOptions makeDeviceOptions(const DeviceArguments& arguments) {
@@ -42,6 +32,7 @@ gpu::DeviceOptions makeDeviceOptions(const DeviceArguments& arguments) {
     options.validate = arguments.validate;
     options.synchronizationValidation = arguments.validate;
     options.pipelineCacheFile = findPipelineCacheFile();
+    options.keepPipelines = true;  // of one frame for the next, of one scene of a bench for another
     return options;
 }
 
@@ -60,32 +51,6 @@ void checkValidation(const std::vector<std::string>& messages, const std::string
     throw failure("validating", device,
                   fmt::format("the validation layers reported {} messages, none is allowed",
                               messages.size()));
-}
-
-ivec2 parseSize(const std::string& text) {
-    const std::size_t cross = text.find('x');
-    const auto fail = [&] {
-        return inputError("reading options", "--size " + text,
-                          fmt::format("not WIDTHxHEIGHT with both in 1..{}", kMaxImageSize));
-    };
-    if (cross == std::string::npos) throw fail();
-    const auto width = parseInteger(std::string_view(text).substr(0, cross));
-    const auto height = parseInteger(std::string_view(text).substr(cross + 1));
-    if (!width || !height || *width < 1 || *height < 1 || *width > kMaxImageSize ||
-        *height > kMaxImageSize)
-        throw fail();
-    return {*width, *height};
-}
-
-scene::Settings parseSettings(const std::vector<std::string>& words) {
-    scene::Settings settings;
-    for (const std::string& word : words) {
-        const std::size_t equals = word.find('=');
-        if (equals == 0 || equals == std::string::npos)
-            throw inputError("reading options", "--set " + word, "not of the form key=value");
-        settings[word.substr(0, equals)] = word.substr(equals + 1);
-    }
-    return settings;
 }
 
 void printMetrics(const bench::ErrorMetrics& m) {

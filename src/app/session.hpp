@@ -2,6 +2,7 @@
 // What several commands do alike: open a device, load a scene, compare, write results.
 #pragma once
 
+#include <app/option_text.hpp>
 #include <bench/error_metrics.hpp>
 #include <core/log.hpp>
 #include <filesystem>
@@ -31,12 +32,6 @@ void checkValidation(const gpu::Device& device, const Log& log);
 /// The same for the messages that there were.
 void checkValidation(const std::vector<std::string>& messages, const std::string& device,
                      const Log& log);
-
-/// "1280x720" to a size in [1, 16384]. Throws an input Error.
-ivec2 parseSize(const std::string& text);
-
-/// "key=value" words to settings. Throws an input Error.
-scene::Settings parseSettings(const std::vector<std::string>& words);
 
 /// Every figure on a line of its own.
 void printMetrics(const bench::ErrorMetrics& metrics);

@@ -4,33 +4,13 @@
 
 #include <algorithm>
 #include <bench/measure.hpp>
+#include <bench/method_word.hpp>
 #include <core/error.hpp>
 #include <oit/method_info.hpp>
 #include <shadows/store_info.hpp>
-#include <sstream>
 
 namespace brume::bench {
 namespace {
-
-/// A word of MeasureOptions::methods, apart.
-struct MethodChoice {
-    std::string name;
-    scene::Settings settings;
-};
-
-MethodChoice parseChoice(const std::string& word) {
-    std::istringstream parts(word);
-    MethodChoice choice;
-    std::getline(parts, choice.name, ':');
-    for (std::string part; std::getline(parts, part, ':');) {
-        const std::size_t equals = part.find('=');
-        if (equals == 0 || equals == std::string::npos)
-            throw inputError("benchmarking", "method " + word,
-                             fmt::format("\"{}\" is not of the form key=value", part));
-        choice.settings[part.substr(0, equals)] = part.substr(equals + 1);
-    }
-    return choice;
-}
 
 const oit::MethodInfo* findMethod(const std::string& name) {
     for (const oit::MethodInfo& info : oit::listMethods())
@@ -61,7 +41,7 @@ bool knowsSetting(const oit::MethodInfo& info, const std::string& key) {
 void checkOptions(const MeasureOptions& options) {
     std::vector<const oit::MethodInfo*> methods;
     for (const std::string& name : options.methods) {
-        methods.push_back(findMethod(parseChoice(name).name));
+        methods.push_back(findMethod(parseMethodWord(name).name));
         if (methods.back()) continue;
         std::vector<std::string_view> known;
         for (const oit::MethodInfo& info : oit::listMethods()) known.push_back(info.name);
@@ -101,7 +81,7 @@ std::vector<Contestant> makeContestants(gpu::Device& device, const render::Prepa
     std::vector<Contestant> contestants(options.methods.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         Contestant& contestant = contestants[i];
-        const MethodChoice choice = parseChoice(options.methods[i]);
+        const MethodWord choice = parseMethodWord(options.methods[i]);
         contestant.word = options.methods[i];
         contestant.options.method = choice.name;
         contestant.options.triangleHashes = options.withError;
@@ -157,7 +137,7 @@ std::string makeCommand(const Row& row, const MeasureOptions& options) {
                                       quoteForShell(row.scene), quoteForShell(row.method));
     if (!options.shadow.empty()) command += " --shadow " + quoteForShell(options.shadow);
     command += fmt::format(" --size {}x{}", row.width, row.height);
-    const scene::Settings own = parseMethodSettings(row.method);
+    const scene::Settings own = parseMethodWord(row.method).settings;
     for (const auto& [key, value] : row.settings)
         if (!own.contains(key)) command += " --set " + quoteForShell(key + "=" + value);
     if (options.truth) command += " --truth " + quoteForShell(options.truthName);
@@ -273,8 +253,6 @@ void addRoofs(const Machine& machine, Row& row) {
     for (PassRow& pass : row.passes)
         pass.roofMs = computeRoofMs(machine, pass.bytes, pass.fragments);
 }
-
-scene::Settings parseMethodSettings(const std::string& word) { return parseChoice(word).settings; }
 
 std::string describeShadows(const scene::Scene& scene) {
     std::vector<std::string> names;

@@ -90,9 +90,6 @@ struct Measurement {
 /// Least time of each pass, by the machine's rates.
 void addRoofs(const Machine& machine, Row& row);
 
-/// Settings that a word of MeasureOptions::methods holds ("stochastic:samples=16").
-scene::Settings parseMethodSettings(const std::string& word);
-
 /// A scene with its methods, in a race with others.
 struct Entrant {
     std::string sceneName;

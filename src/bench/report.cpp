@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bench/pareto.hpp>
 #include <bench/report.hpp>
+#include <bench/svg.hpp>
 #include <core/error.hpp>
 
 #include <fmt/format.h>
@@ -90,9 +91,15 @@ void writeReport(const std::filesystem::path& folder, const Results& results) {
     if (!dominated.empty())
         text += fmt::format("Beaten in both time and rmse on every scene here: {}.\n\n",
                             fmt::join(dominated, ", "));
+    int plotCount = 0;
     for (const Findings& findings : results.findings) {
         text += fmt::format("## {}: {}\n\n", findings.suite, findings.summary);
         for (const Table& table : findings.tables) text += formatMarkdown(table) + "\n";
+        for (const Plot& plot : findings.plots) {
+            const std::string name = fmt::format("plot_{}.svg", plotCount++);
+            writeTextFile(folder / name, drawPlotFile(plot));
+            text += fmt::format("![{}]({})\n\n", plot.title, name);
+        }
     }
     text += formatMarkdown(makeRowTable(results.frames));
     writeTextFile(folder / "report.md", text);

@@ -22,7 +22,8 @@ std::string formatTable(std::span<const Measurement> measurements);
 /// click or by "#sort=<table>:<column>" in the address, and the command of each row.
 std::string makePage(const Results& results);
 
-/// Writes report.html, report.md with the tables, and rows.json into `folder`, which is created.
+/// Writes report.html, report.md with the tables, its plots as plot_0.svg, plot_1.svg, ... and
+/// rows.json into `folder`, which is created.
 /// Throws a failure Error.
 void writeReport(const std::filesystem::path& folder, const Results& results);
 

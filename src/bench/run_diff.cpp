@@ -12,29 +12,47 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kMostDepth = 16;
+
 /// Below these, growth is rounding or bookkeeping.
 constexpr double kLeastError = 1e-6, kLeastBytes = 65536, kLeastMs = 0.02;
 
 Json parse(const std::string& text, const std::string& name) {
-    const Json json = Json::parse(text, nullptr, false);
+    // What is nested deeper than results are is left out: copies would need the stack for it.
+    const auto isShallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kMostDepth; };
+    const Json json = Json::parse(text, isShallow, false);
     if (!json.is_object() || !json.contains("rows") || !json["rows"].is_array())
         throw inputError("comparing runs", name,
                          "is not a benchmark's result, allowed are files of brume bench --json");
     return json;
 }
 
+/// Members of another kind than they should be count as missing.
+std::string textAt(const Json& row, const char* name, const char* fallback = "") {
+    const auto found = row.find(name);
+    return found != row.end() && found->is_string() ? found->get<std::string>() : fallback;
+}
+
+/// Strings without quotes; nothing that could be nested without end.
+std::string scalarText(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    return value.is_structured() ? "?" : value.dump();
+}
+
 /// What is the same measurement in both runs.
 std::string keyOf(const Json& row) {
-    std::string key = row.value("suite", "");
+    std::string key = textAt(row, "suite");
     if (!key.empty()) key += ": ";
-    key += row.value("scene", "?") + " by " + row.value("method", "?");
-    if (const std::string shadow = row.value("shadow", "none"); shadow != "none")
+    key += textAt(row, "scene", "?") + " by " + textAt(row, "method", "?");
+    if (const std::string shadow = textAt(row, "shadow", "none"); shadow != "none")
         key += " with " + shadow;
-    if (const auto size = row.find("size"); size != row.end() && size->size() == 2)
-        key += fmt::format(" {}x{}", (*size)[0].dump(), (*size)[1].dump());
-    if (const auto settings = row.find("settings"); settings != row.end())
+    if (const auto size = row.find("size");
+        size != row.end() && size->is_array() && size->size() == 2)
+        key += fmt::format(" {}x{}", scalarText((*size)[0]), scalarText((*size)[1]));
+    if (const auto settings = row.find("settings");
+        settings != row.end() && settings->is_object())
         for (const auto& [name, value] : settings->items())
-            key += " " + name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+            key += " " + name + "=" + scalarText(value);
     return key;
 }
 
@@ -65,7 +83,7 @@ class Differ {
         ++mDiff.comparedRows;
         const bool failedBefore = before.contains("failure"), fails = after.contains("failure");
         if (fails && !failedBefore)
-            mDiff.regressions.push_back(key + ": fails: " + after["failure"].dump());
+            mDiff.regressions.push_back(key + ": fails: " + textAt(after, "failure", "without a word"));
         if (failedBefore && !fails) mDiff.gains.push_back(key + ": fails no longer");
         if (fails || failedBefore) return;
         compareTimes(key, before, after);
@@ -104,7 +122,7 @@ class Differ {
                 fmt::format("{}: {:.0f} pixels are not finite", key, numberAt(after, "error", "nonFinite")));
         const bool isDeterministic = numberAt(before, "counters", "distinctImages") == 1 &&
                                      numberAt(after, "counters", "distinctImages") == 1;
-        if (isDeterministic && before.value("imageHash", "") != after.value("imageHash", ""))
+        if (isDeterministic && textAt(before, "imageHash") != textAt(after, "imageHash"))
             mDiff.notes.push_back(key + ": another image");
     }
 
@@ -132,18 +150,19 @@ std::map<std::string, Json> collectRows(const Json& run) {
         if (found == run.end() || !found->is_array()) return;
         for (const Json& row : *found) {
             if (!row.is_object()) continue;
-            Json shaped = {{"timeMs", row.value(time, Json::object())}};
+            Json shaped = Json::object();
+            if (const auto times = row.find(time); times != row.end()) shaped["timeMs"] = *times;
             if (row.contains("failure")) shaped["failure"] = row["failure"];
-            if (const auto inside = row.find("inside"); inside != row.end())
+            if (const auto inside = row.find("inside"); inside != row.end() && inside->is_object())
                 shaped["error"] = {{"rmse", numberAt(*inside, "footprint", "rms")}};
             rows[name(row)] = shaped;
         }
     };
     addOthers("shadows", "buildMs", [](const Json& row) {
-        return "shadow store " + row.value("shadow", "?") + " on " + row.value("scene", "?");
+        return "shadow store " + textAt(row, "shadow", "?") + " on " + textAt(row, "scene", "?");
     });
     addOthers("simulation", "timeMs",
-              [](const Json& row) { return "simulate " + row.value("name", "?"); });
+              [](const Json& row) { return "simulate " + textAt(row, "name", "?"); });
     return rows;
 }
 
@@ -163,7 +182,7 @@ RunDiff diffRuns(const std::string& oldJson, const std::string& oldName,
     const auto device = [](const Json& run) {
         const auto machine = run.find("machine");
         return machine == run.end() || !machine->is_object() ? std::string()
-                                                             : machine->value("device", "");
+                                                             : textAt(*machine, "device");
     };
     if (device(before) != device(after))
         diff.notes.push_back("other devices: " + device(before) + ", then " + device(after));

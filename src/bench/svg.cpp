@@ -120,6 +120,19 @@ std::string drawPlot(const Plot& plot) {
     return svg + "</svg>\n";
 }
 
+std::string drawPlotFile(const Plot& plot) {
+    const std::string svg = drawPlot(plot);
+    if (svg.empty()) return {};
+    const std::size_t body = svg.find('\n') + 1;
+    return fmt::format(
+               "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}'>\n"
+               "<style>text{{font:10px sans-serif;fill:#333}}.grid{{stroke:#ddd}}</style>\n"
+               "<rect width='{0}' height='{1}' fill='#fff'/>\n"
+               "<text x='{2}' y='14' text-anchor='middle'>{3}</text>\n",
+               kWidth, kHeight, kWidth / 2, escapeHtml(plot.title)) +
+           svg.substr(body);
+}
+
 std::string escapeHtml(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {

@@ -24,6 +24,9 @@ std::string drawMarks(const std::string& xLabel, const std::string& yLabel,
 /// A line with dots per series, its name at its end.
 std::string drawPlot(const Plot& plot);
 
+/// A plot as a file of its own, for documents: with its title, light and dark readers see the same.
+std::string drawPlotFile(const Plot& plot);
+
 /// For text and attributes of HTML.
 std::string escapeHtml(const std::string& text);
 

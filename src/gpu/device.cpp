@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gpu/instance.hpp>
 #include <gpu/object_registry.hpp>
+#include <gpu/pipeline_store.hpp>
 
 #include <mutex>
 
@@ -131,6 +132,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options, const Log& 
     device->createInstance(options);
     device->createDevice(options);
     device->initialize(options.pipelineCacheFile);
+    if (options.keepPipelines) device->mPipelineStore = std::make_unique<PipelineStore>();
     device->vk().vkGetDeviceQueue(device->mDevice, device->mQueueFamily, 0, &device->mQueue);
     log.debug(fmt::format("device: {} ({}), {}", device->mInfo.name, device->mInfo.type,
                           device->mInfo.driver));
@@ -208,6 +210,7 @@ Device::~Device() {
         } catch (const std::exception& e) {
             mLog.warning(e.what());
         }
+        mPipelineStore.reset();
         for (const std::string& name : mRegistry->close())
             mLog.warning(fmt::format("destroying device: {} still lives", name));
         if (!mIsCacheLent) mTable->vkDestroyPipelineCache(mDevice, mPipelineCache, allocator());

@@ -21,6 +21,7 @@ struct VolkDeviceTable;
 namespace brume::gpu {
 
 class ObjectRegistry;
+class PipelineStore;
 struct InstanceFunctions;
 
 /// How Device::create() chooses and sets up a device.
@@ -31,6 +32,9 @@ struct DeviceOptions {
     bool validate = false;                    ///< load the Khronos validation layer
     bool synchronizationValidation = false;   ///< with validate: find missing barriers as well
     std::filesystem::path pipelineCacheFile;  ///< read now, written on destruction; empty: none
+    /// Pipelines stay when their last user goes, for later ones of the same description: where many
+    /// renderers follow each other.
+    bool keepPipelines = false;
     /// For a device that shows images in windows (Swapchain): the instance extensions of the window
     /// system. Empty: none is shown.
     std::vector<std::string> windowExtensions;
@@ -220,6 +224,7 @@ class Device {
     /// Can images of this format be colour targets that blend?
     bool canBlend(VkFormat format) const;
     const std::shared_ptr<ObjectRegistry>& registry() const { return mRegistry; }
+    PipelineStore* pipelineStore() const { return mPipelineStore.get(); }  ///< null: none is kept
 
   private:
     struct Debug;  // the debug messenger and what it has collected
@@ -254,6 +259,7 @@ class Device {
     MemoryHooks mMemoryHooks;
     std::uint64_t mBudgetBytes = ~std::uint64_t{0};
     std::shared_ptr<ObjectRegistry> mRegistry;
+    std::unique_ptr<PipelineStore> mPipelineStore;
     std::map<const std::uint32_t*, std::vector<std::uint32_t>> mReplacedShaders;
 };
 

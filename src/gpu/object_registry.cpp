@@ -97,10 +97,13 @@ void ObjectRegistry::destroy(const Entry& entry) {
     --mAllocations;
 }
 
+void ObjectRegistry::retain(std::uint64_t id) { ++mLiving.at(id).ownerCount; }
+
 void ObjectRegistry::release(std::uint64_t id) {
     if (mIsClosed) return;
-    auto node = mLiving.extract(id);
-    if (node.empty()) return;
+    const auto found = mLiving.find(id);
+    if (found == mLiving.end() || --found->second.ownerCount > 0) return;
+    auto node = mLiving.extract(found);
     if (!isFrameOpen()) return destroy(node.mapped());
     node.mapped().serial = mBegun;
     mDying.push_back(std::move(node.mapped()));
@@ -151,6 +154,15 @@ ObjectOwner& ObjectOwner::operator=(ObjectOwner&& other) noexcept {
     mRegistry = std::move(other.mRegistry);
     mId = std::exchange(other.mId, 0);
     return *this;
+}
+
+ObjectOwner ObjectOwner::share() const {
+    ObjectOwner other;
+    if (!mRegistry) return other;
+    mRegistry->retain(mId);
+    other.mRegistry = mRegistry;
+    other.mId = mId;
+    return other;
 }
 
 void ObjectOwner::reset() {

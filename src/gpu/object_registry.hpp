@@ -35,6 +35,8 @@ class ObjectRegistry {
     /// Adds a handle to an object; they are destroyed in reverse order, memory last.
     void addHandle(std::uint64_t id, OwnedHandle handle);
     void addMemory(std::uint64_t id, const Allocation& allocation, MemoryKind kind);
+    /// One owner more: the object goes when all of them have released it.
+    void retain(std::uint64_t id);
     void release(std::uint64_t id);
     std::uint64_t beginFrame() { return ++mBegun; }
     void retireFrame(std::uint64_t serial);
@@ -50,6 +52,7 @@ class ObjectRegistry {
     struct Entry {
         ObjectInfo info;
         std::vector<OwnedHandle> handles;
+        std::uint32_t ownerCount = 1;
         std::uint64_t serial = 0;  // frame after which it may go
     };
     void destroy(const Entry& entry);
@@ -65,7 +68,7 @@ class ObjectRegistry {
     bool mIsClosed = false;
 };
 
-/// Owns one entry of a registry; empty by default and after a move.
+/// Owns one entry of a registry, as a rule alone; empty by default and after a move.
 class ObjectOwner {
   public:
     ObjectOwner() = default;
@@ -78,6 +81,8 @@ class ObjectOwner {
     void add(const Allocation& allocation, MemoryKind kind) {
         mRegistry->addMemory(mId, allocation, kind);
     }
+    /// Another owner of the same object.
+    ObjectOwner share() const;
     void reset();
 
   private:

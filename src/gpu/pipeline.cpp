@@ -3,7 +3,7 @@
 // volk.h goes first.
 #include <fmt/format.h>
 #include <core/assert.hpp>
-#include <gpu/pipeline.hpp>
+#include <gpu/pipeline_store.hpp>
 
 #include <numeric>
 
@@ -232,8 +232,28 @@ void Pipeline::adopt(Device& device, VkResult result, VkPipelineBindPoint bindPo
     device.setName(VK_OBJECT_TYPE_PIPELINE, (std::uint64_t)mHandle, mName);
 }
 
+bool Pipeline::takeKept(const Device& device, const std::string& description,
+                        VkPipelineBindPoint bindPoint) {
+    const PipelineStore* store = device.pipelineStore();
+    const PipelineStore::Entry* entry = store ? store->find(description) : nullptr;
+    if (!entry) return false;
+    mHandle = entry->handle;
+    mLayout = entry->layout;
+    mBindPoint = bindPoint;
+    mOwner = entry->owner.share();
+    return true;
+}
+
+void Pipeline::keep(const Device& device, const std::string& description) const {
+    if (PipelineStore* store = device.pipelineStore())
+        store->keep(description, {mHandle, mLayout, mOwner.share()});
+}
+
 ComputePipeline::ComputePipeline(Device& device, const ComputePipelineDesc& desc) {
     describe(desc.name, desc.bindings, desc.pushConstantBytes, VK_SHADER_STAGE_COMPUTE_BIT);
+    const std::string description =
+        device.pipelineStore() ? describePipeline(device, desc) : std::string();
+    if (takeKept(device, description, VK_PIPELINE_BIND_POINT_COMPUTE)) return;
     mOwner = ObjectOwner(device, "pipeline", mName);
     makeLayout(device);
     const Module module(device, desc.spirv, mName);
@@ -246,11 +266,15 @@ ComputePipeline::ComputePipeline(Device& device, const ComputePipelineDesc& desc
           device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
                                                device.allocator(), &mHandle),
           VK_PIPELINE_BIND_POINT_COMPUTE);
+    keep(device, description);
 }
 
 GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc) {
     describe(desc.name, desc.bindings, desc.pushConstantBytes,
              VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT);
+    const std::string description =
+        device.pipelineStore() ? describePipeline(device, desc) : std::string();
+    if (takeKept(device, description, VK_PIPELINE_BIND_POINT_GRAPHICS)) return;
     mOwner = ObjectOwner(device, "pipeline", mName);
     makeLayout(device);
     const Module vertex(device, desc.vertexSpirv, mName);
@@ -277,6 +301,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineDesc& d
           device.vk().vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info,
                                                 device.allocator(), &mHandle),
           VK_PIPELINE_BIND_POINT_GRAPHICS);
+    keep(device, description);
 }
 
 }  // namespace brume::gpu

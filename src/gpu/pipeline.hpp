@@ -103,6 +103,10 @@ class Pipeline {
                   std::uint32_t pushConstantBytes, VkShaderStageFlags stages);
     void makeLayout(Device& device);
     void adopt(Device& device, VkResult result, VkPipelineBindPoint bindPoint);
+    /// Takes what the device has kept of this description, if it has.
+    bool takeKept(const Device& device, const std::string& description,
+                  VkPipelineBindPoint bindPoint);
+    void keep(const Device& device, const std::string& description) const;
 
     std::string mName;
     VkPipeline mHandle = VK_NULL_HANDLE;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <oit/bindings.hpp>
 
+#include <shaders/common/frame.h>
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
 #include <shaders/shadows/common/maps.h>
@@ -21,8 +22,12 @@ std::vector<gpu::Binding> mediaBindings() {
             {shader::kBindingVolumes, BindingType::StorageBuffer}};
 }
 
-std::vector<gpu::Binding> meshBindings() {
-    return {{shader::kBindingVertices, BindingType::StorageBuffer},
+std::vector<gpu::Binding> surfaceBindings() {
+    return {{shader::kBindingFrame, BindingType::UniformBuffer},
+            {shader::kBindingLights, BindingType::StorageBuffer},
+            {shader::kBindingMedia, BindingType::StorageBuffer},
+            {shader::kBindingFirstLights, BindingType::UniformBuffer},
+            {shader::kBindingVertices, BindingType::StorageBuffer},
             {shader::kBindingIndices, BindingType::StorageBuffer},
             {shader::kBindingMesh, BindingType::UniformBuffer},
             {shader::kBindingMaterial, BindingType::UniformBuffer},
@@ -39,7 +44,15 @@ std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gp
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
     return {{shader::kConstantShadowStores, needs.shadowStores},
             {shader::kConstantShadowing, needs.shadowing},
-            {shader::kConstantGlossy, needs.glossy}};
+            {shader::kConstantGlossy, needs.glossy},
+            {shader::kConstantLightCount, needs.lights},
+            {shader::kConstantTextured, needs.textured}};
+}
+
+std::span<const std::uint32_t> chooseReal(const gpu::Device& device,
+                                          std::span<const std::uint32_t> float32,
+                                          std::span<const std::uint32_t> float64) {
+    return device.features().shaderFloat64 ? float64 : float32;
 }
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs) {
@@ -56,6 +69,9 @@ void bindMedia(gpu::Commands& commands, const Inputs& inputs, const gpu::Buffer&
 }
 
 void bindMeshes(gpu::Commands& commands, const Inputs& inputs) {
+    commands.bind(shader::kBindingFirstLights,
+                  gpu::BufferRange{inputs.lights, 0,
+                                   shader::kUniformLights * sizeof(shader::LightData)});
     commands.bind(shader::kBindingVertices, *inputs.vertices);
     commands.bind(shader::kBindingIndices, *inputs.indices);
     commands.bind(shader::kBindingEnvironment, *inputs.environment, *inputs.texelSampler);

@@ -5,6 +5,7 @@
 #include <gpu/commands.hpp>
 #include <oit/inputs.hpp>
 
+#include <span>
 #include <vector>
 
 namespace brume::oit {
@@ -13,13 +14,19 @@ namespace brume::oit {
 std::vector<gpu::Binding> frameBindings();
 /// Spheres, boxes and volumes.
 std::vector<gpu::Binding> mediaBindings();
-/// Vertices, indices, meshes, materials and textures.
-std::vector<gpu::Binding> meshBindings();
+/// Of passes that draw meshes: those of frameBindings(), as such passes want them; vertices, indices,
+/// meshes, materials and textures. Filled by bindFrame(), bindMeshes() and bindDraw().
+std::vector<gpu::Binding> surfaceBindings();
 std::vector<gpu::Binding> join(std::vector<gpu::Binding> a, const std::vector<gpu::Binding>& b);
 
-/// Constants of shaders/common/lighting.glsl and surface.glsl: for every pipeline that lights
+/// Constants of shaders/common/bindings.glsl, lighting.glsl and surface.glsl: for every pipeline that lights
 /// something. Without them such a shader keeps the code of all shadow stores and of gloss.
 std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs);
+
+/// The finer of two builds of a shader, where the device has the numbers for it.
+std::span<const std::uint32_t> chooseReal(const gpu::Device& device,
+                                          std::span<const std::uint32_t> float32,
+                                          std::span<const std::uint32_t> float64);
 
 void bindFrame(gpu::Commands& commands, const Inputs& inputs);
 /// `spheres` and `boxes`: sorted or as they came.

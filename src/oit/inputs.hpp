@@ -24,6 +24,7 @@ struct Needs {
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
     bool hostLayers = false;          ///< a host draws surfaces of its own into the method's targets
+    bool textured = false;            ///< some material has a texture
     bool glossy = false;              ///< glass that mirrors background and lights
     bool diffusion = false;           ///< thin surfaces with a collimation below 1
     bool tinted = false;     ///< spheres have different tints

@@ -52,7 +52,7 @@ Solids::Solids(gpu::Device& device, const std::string& name, const Inputs& input
                  {.name = mName + ".solids",
                   .vertexSpirv = spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_layers_solids_frag,
-                  .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
+                  .bindings = join(surfaceBindings(), {kOpaqueT}),
                   .colors = {{sums, gpu::Blend::additive()},
                              {sums, gpu::Blend::additive()},
                              {VK_FORMAT_R32G32_SFLOAT, maximum()}}}};
@@ -102,8 +102,7 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
             device, {.name = desc.name + suffix,
                      .vertexSpirv = vertex,
                      .fragmentSpirv = fragment,
-                     .bindings = join(join(join(frameBindings(), bindings), {kOpaqueT}),
-                                      desc.bindings),
+                     .bindings = join(join(bindings, {kOpaqueT}), desc.bindings),
                      .pushConstantBytes = sizeof(shader::LayerPush),
                      .specialization = constants,
                      .constants = lightingConstants(inputs.needs),
@@ -115,12 +114,15 @@ LayerPass::LayerPass(gpu::Device& device, const Inputs& inputs, const LayerPassD
                                             : VK_COMPARE_OP_GREATER_OR_EQUAL});
     };
     if ((kinds & kLayersMedia) != 0 && (inputs.needs.spheres || inputs.needs.boxes))
-        mMedia = make("_media", spv::oit_layers_media_vert, desc.shaders.media, mediaBindings());
+        mMedia = make("_media", spv::oit_layers_media_vert, desc.shaders.media,
+                     join(frameBindings(), mediaBindings()));
     if ((kinds & kLayersSurfaces) == 0) return;
     if (inputs.needs.surfaces)
-        mSurfaces = make("_surfaces", spv::common_mesh_vert, desc.shaders.surface, meshBindings());
+        mSurfaces = make("_surfaces", spv::common_mesh_vert, desc.shaders.surface,
+                         surfaceBindings());
     if (inputs.needs.solids)
-        mSolids = make("_solids", spv::common_screen_vert, desc.shaders.solid, kSolidBindings);
+        mSolids = make("_solids", spv::common_screen_vert, desc.shaders.solid,
+                       join(frameBindings(), kSolidBindings));
 }
 
 void LayerPass::declareReads(frame::PassBuilder& pass, const Inputs& inputs,

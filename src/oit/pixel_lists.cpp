@@ -52,21 +52,14 @@ std::uint64_t listBytes(std::uint64_t entries, std::uint64_t records) {
     return entries * kEntryBytes + records * sizeof(shader::SurfaceRecord);
 }
 
-/// The finer of two builds of a shader, where the device has the numbers for it.
-std::span<const std::uint32_t> choose(const gpu::Device& device,
-                                      std::span<const std::uint32_t> float32,
-                                      std::span<const std::uint32_t> float64) {
-    return device.features().shaderFloat64 ? float64 : float32;
-}
-
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
                                           std::span<const std::uint32_t> spirv,
                                           std::vector<gpu::NumberedConstant> constants = {}) {
     return {device,
             {.name = name,
-             .vertexSpirv = choose(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
+             .vertexSpirv = chooseReal(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
              .fragmentSpirv = spirv,
-             .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
+             .bindings = join(surfaceBindings(), {kOpaqueT}),
              .pushConstantBytes = sizeof(shader::ListPush),
              .constants = std::move(constants)}};
 }
@@ -95,9 +88,10 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
                                {mNeeds.surfaces});
     if (mNeeds.surfaces) {
         mSurfaceCount = makeSurfacePipeline(device, name + ".surface_count",
-                                            spv::oit_linked_list_surface_count_frag);
+                                            spv::oit_linked_list_surface_count_frag,
+                                            lightingConstants(mNeeds));
         mSurfaceStore = makeSurfacePipeline(device, name + ".surface_store",
-                                            choose(device, spv::oit_linked_list_surface_store_frag,
+                                            chooseReal(device, spv::oit_linked_list_surface_store_frag,
                                                    spv::oit_linked_list_surface_store_frag_float64),
                                             lightingConstants(mNeeds));
     }
@@ -133,7 +127,7 @@ gpu::ComputePipeline PixelLists::makeResolve() const {
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     return makeListPipeline(
         *mDevice, mName + ".resolve",
-        choose(*mDevice, spv::oit_linked_list_resolve_comp,
+        chooseReal(*mDevice, spv::oit_linked_list_resolve_comp,
                spv::oit_linked_list_resolve_comp_float64),
         join(mediaBindings(), {kOpaqueT,
                                {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},

@@ -188,7 +188,7 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
                                      ? std::span<const std::uint32_t>(spv::common_mesh_vert_float64)
                                      : spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_tile_mark_surfaces_frag,
-                  .bindings = join(join(frameBindings(), meshBindings()), {kOpaqueT}),
+                  .bindings = join(surfaceBindings(), {kOpaqueT}),
                   .pushConstantBytes = sizeof(shader::TilePush),
                   .constants = lightingConstants(mNeeds)}};
     mClasses = makeBuffer("classes", 4ull * mTileCount);

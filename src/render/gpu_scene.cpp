@@ -5,6 +5,7 @@
 #include <render/needs.hpp>
 
 #include <shaders/common/frame.h>
+#include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
 #include <shaders/common/sphere.h>
 
@@ -36,6 +37,7 @@ shader::LightData makeLight(const scene::Light& light, const dvec3& origin) {
                 : light.type == scene::LightType::Point     ? shader::kLightPoint
                                                             : shader::kLightSpot;
     data.position = vec3(light.position - origin);
+    data.positionLo = roundingOf(light.position - origin);
     data.radius = static_cast<float>(light.radius);
     data.direction = vec3(light.direction);
     data.cosInner = static_cast<float>(std::cos(light.innerAngle));
@@ -193,7 +195,8 @@ void GpuScene::makeFrame() {
          .width = environment ? static_cast<std::uint32_t>(environment->width) : 1u,
          .height = environment ? static_cast<std::uint32_t>(environment->height) : 1u});
     mFrame = makeArray<shader::FrameData>("render.frame", 1);
-    mLights = makeArray<shader::LightData>("render.lights", mSceneLights.size());
+    mLights = makeArray<shader::LightData>(
+        "render.lights", std::max<std::size_t>(mSceneLights.size(), shader::kUniformLights));
     mMedia = makeArray<shader::MediumData>("render.media", scene.media.size());
 }
 

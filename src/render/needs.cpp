@@ -134,6 +134,8 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         if (effect.effect.smoothProfile) needs.varyingDensity = true;
     addVolumeNeeds(prepared, needs);
     addSurfaceNeeds(scene, needs);
+    for (const scene::Material& material : scene.materials)
+        if (material.colorTexture || material.emissionTexture) needs.textured = true;
     needs.media = static_cast<std::uint32_t>(scene.media.size());
     for (const scene::Medium& medium : scene.media)
         if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
@@ -173,6 +175,7 @@ std::string describe(const oit::Needs& needs) {
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("textured", needs.textured, "materials with textures") +
            line("glossy", needs.glossy, "glass mirrors background and lights") +
            line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +
            line("tinted", needs.tinted, "spheres of different tints") +

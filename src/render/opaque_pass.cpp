@@ -5,10 +5,13 @@
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
+#include <spv/common/mesh.vert.float64.hpp>
 #include <spv/common/mesh.vert.hpp>
 #include <spv/common/screen.vert.hpp>
 #include <spv/render/background.frag.hpp>
+#include <spv/render/opaque.frag.float64.hpp>
 #include <spv/render/opaque.frag.hpp>
+#include <spv/render/triangles.frag.float64.hpp>
 #include <spv/render/triangles.frag.hpp>
 
 namespace brume::render {
@@ -37,22 +40,27 @@ OpaquePass::OpaquePass(gpu::Device& device, const oit::Needs& needs)
                                          {{shader::kBindingOwn, gpu::BindingType::SampledImage}}),
                    .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}}}),
       mOpaque(device, {.name = "render.opaque",
-                       .vertexSpirv = spv::common_mesh_vert,
-                       .fragmentSpirv = spv::render_opaque_frag,
-                       .bindings = oit::join(oit::frameBindings(), oit::meshBindings()),
+                       .vertexSpirv = oit::chooseReal(device, spv::common_mesh_vert,
+                                                      spv::common_mesh_vert_float64),
+                       .fragmentSpirv = oit::chooseReal(device, spv::render_opaque_frag,
+                                                        spv::render_opaque_frag_float64),
+                       .bindings = oit::surfaceBindings(),
                        .constants = oit::lightingConstants(needs),
                        .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}},
                        .depthFormat = kDepthFormat,
                        .depthTest = true,
                        .depthWrite = true}),
       mTriangles(device, {.name = "render.triangles",
-                          .vertexSpirv = spv::common_mesh_vert,
-                          .fragmentSpirv = spv::render_triangles_frag,
+                          .vertexSpirv = oit::chooseReal(device, spv::common_mesh_vert,
+                                                         spv::common_mesh_vert_float64),
+                          .fragmentSpirv = oit::chooseReal(device, spv::render_triangles_frag,
+                                                           spv::render_triangles_frag_float64),
                           .bindings = oit::join(
-                              oit::join(oit::frameBindings(), oit::meshBindings()),
+                              oit::surfaceBindings(),
                               {{shader::kBindingOpaqueT, gpu::BindingType::SampledImage},
                                {shader::kBindingTriangles, gpu::BindingType::StorageBuffer}}),
-                          .pushConstantBytes = sizeof(shader::MeshPush)}) {}
+                          .pushConstantBytes = sizeof(shader::MeshPush),
+                          .constants = oit::lightingConstants(needs)}) {}
 
 void OpaquePass::declare(frame::FrameBuilder& frame, const GpuScene& scene,
                          oit::Inputs& inputs) const {

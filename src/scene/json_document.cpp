@@ -58,7 +58,7 @@ class TokenCursor {
         while (mOffset < mText.size()) {
             const char c = peek();
             if (c == '/' && peek(1) == '/') {
-                while (mOffset < mText.size() && peek() != '\n') advance();
+                while (mOffset < mText.size() && peek() != '\n' && peek() != '\r') advance();
             } else if (c == '/' && peek(1) == '*') {
                 mOffset += 2;
                 while (mOffset < mText.size() && !(peek() == '*' && peek(1) == '/')) advance();
@@ -98,6 +98,13 @@ class TreeBuilder {
 
     json root;
     PlaceTree places;
+
+    /// The parser takes a zero byte for the end and would be silent about what follows.
+    void refuseZeroBytes() const {
+        const std::size_t zero = mText.find('\0');
+        if (zero != std::string_view::npos)
+            throw error(placeOf(zero + 1), "a zero byte, allowed is text");
+    }
 
     bool null() { return addScalar(json()); }
     bool boolean(bool value) { return addScalar(json(value)); }
@@ -246,6 +253,7 @@ JsonDocument JsonDocument::parse(const std::string& text, JsonRules rules) {
             rules.doing, rules.name,
             fmt::format("{} bytes of text, at most {} are allowed", text.size(), rules.maxBytes));
     TreeBuilder builder(text, rules);
+    builder.refuseZeroBytes();
     json::sax_parse(text, &builder, json::input_format_t::json, true, /*ignore_comments=*/true);
     auto root = std::make_unique<json>(std::move(builder.root));
     PlaceTree places = std::move(builder.places);

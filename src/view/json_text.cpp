@@ -56,7 +56,8 @@ void JsonText::replaceText(std::string text) {
 }
 
 std::size_t JsonText::offsetOf(const scene::TextPlace& place) const {
-    std::size_t at = 0;
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // is in no column
+    std::size_t at = mText.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
     for (std::uint32_t line = 1; line < place.line; ++line) at = mText.find('\n', at) + 1;
     return at + place.column - 1;
 }
@@ -66,7 +67,7 @@ std::size_t JsonText::skipBlank(std::size_t at) const {
     for (;;) {
         at = std::min(mText.find_first_not_of(" \t\r\n", at), mText.size());
         if (mText.compare(at, 2, "//") == 0)
-            at = std::min(mText.find('\n', at), mText.size());
+            at = std::min(mText.find_first_of("\r\n", at), mText.size());
         else if (mText.compare(at, 2, "/*") == 0)
             at = std::min(mText.find("*/", at), mText.size() - 2) + 2;
         else

@@ -2,6 +2,7 @@
 // What a user would do, from a file: for pictures in documents, demonstrations and tests.
 #pragma once
 
+#include <view/script_lines.hpp>
 #include <view/stage.hpp>
 
 #include <filesystem>
@@ -44,20 +45,11 @@ class Script {
     ScriptInput step(Stage& stage);
 
   private:
-    struct Line {
-        int number = 0;
-        std::string verb;
-        std::vector<std::string> words;
-    };
-    Error refuse(const Line& line, const std::string& problem) const;
-    void check(const Line& line) const;
-    bool mustWait(const Line& line, const Stage& stage);
-    void run(const Line& line, Stage& stage, ScriptInput& input);
-    void runSetting(const Line& line, Stage& stage);
-    double number(const Line& line, std::size_t word) const;
+    bool mustWait(const ScriptLine& line, const Stage& stage);
+    void run(const ScriptLine& line, Stage& stage, ScriptInput& input);
+    void runSetting(const ScriptLine& line, Stage& stage);
 
-    std::filesystem::path mFile;
-    std::vector<Line> mLines;
+    std::vector<ScriptLine> mLines;
     std::size_t mNext = 0;
     int mFramesLeft = 0;
     std::optional<dvec2> mMouse;

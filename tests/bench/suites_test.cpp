@@ -41,9 +41,14 @@ TEST(Suites, QuickOnes_CoverEveryMethodAndStore) {
     std::set<std::string> used;
     for (const Suite& suite : listSuites())
         for (const Plan& plan : suite.plan(Scale::Quick))
-            for (const std::string& word : plan.methods) used.insert(word.substr(0, word.find(':')));
-    for (const std::string& name : knownMethods())
-        EXPECT_TRUE(used.contains(name) || name == "opaque") << name;
+            for (const std::string& word : plan.methods) {
+                used.insert(word.substr(0, word.find(':')));
+                used.insert(plan.shadow);
+                if (plan.scene.find("shadow") == std::string::npos) continue;
+                for (const NamedScene& made : makeScenes(plan.scene))
+                    for (const scene::Light& light : made.scene.lights) used.insert(light.shadow);
+            }
+    for (const std::string& name : knownMethods()) EXPECT_TRUE(used.contains(name)) << name;
 }
 
 TEST(Suites, PaperTable_SetsOursBesideThePublished) {

@@ -19,7 +19,9 @@ namespace brume::test {
 class GpuTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        mDevice = gpu::Device::create(options(), log());
+        gpu::DeviceOptions chosen = options();
+        chosen.keepPipelines = mKeepsPipelines;
+        mDevice = gpu::Device::create(chosen, log());
         mSubmitter = std::make_unique<gpu::Submitter>(*mDevice);
     }
 
@@ -52,6 +54,7 @@ class GpuTest : public ::testing::Test {
     }
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
 
+    bool mKeepsPipelines = false;  ///< from the constructor on: for tests of many scenes
     std::unique_ptr<gpu::Device> mDevice;
     std::unique_ptr<gpu::Submitter> mSubmitter;
 

@@ -127,6 +127,38 @@ TEST_F(PipelineTest, Dispatch_WithMisuse_NamesPipelineAndBinding) {
     });
 }
 
+class KeptPipelines : public PipelineTest {
+  protected:
+    KeptPipelines() { mKeepsPipelines = true; }
+};
+
+TEST_F(KeptPipelines, SameDescription_IsTheSamePipelineAndOthersAreNot) {
+    const VkPipeline first = makeFill(device(), 1, 1.0f).handle();  // gone, but kept
+    const gpu::ComputePipeline same = makeFill(device(), 1, 1.0f), other = makeFill(device(), 2, 1.0f);
+    EXPECT_EQ(same.handle(), first);
+    EXPECT_NE(other.handle(), first);
+    const std::span<const std::uint32_t> words = spv::gpu_tests_fill_comp;
+    std::vector<std::uint32_t> edited(words.begin(), words.end());
+    edited[2] += 1;  // the number of the tool that wrote it
+    device().replaceShader(words.data(), edited);
+    EXPECT_NE(makeFill(device(), 1, 1.0f).handle(), first);
+    device().replaceShader(words.data(), {});
+    EXPECT_EQ(makeFill(device(), 1, 1.0f).handle(), first);
+}
+
+TEST_F(KeptPipelines, UsedAgain_StillWorks) {
+    const gpu::Buffer buffer(device(), {.name = "values", .bytes = 256});
+    for (std::uint32_t base : {1u, 2u}) {
+        submit([&](gpu::Commands& commands) {
+            const gpu::ComputePipeline pipeline = makeFill(device(), 0, 1.0f);
+            commands.bindCompute(pipeline);
+            commands.pushConstants(FillPush{buffer.deviceAddress(), base, 64});
+            commands.dispatchThreads(64, 64);
+        });
+        EXPECT_EQ(submitter().readBuffer<std::uint32_t>(buffer, 1)[0], base);
+    }
+}
+
 TEST_F(PipelineTest, Timers_LongAndShortScope_MeasureThem) {
     constexpr std::uint32_t kCount = 8'000'000;
     const gpu::ComputePipeline pipeline = makeFill(device(), 1, 1.0f);

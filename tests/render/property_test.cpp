@@ -10,6 +10,7 @@
 #include <render/render_fixture.hpp>
 #include <scene/loader.hpp>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <rapidcheck.h>
 
@@ -140,38 +141,64 @@ Json makeScene() {
         {"spheres", *upTo(8, sphere()).as("spheres")}};
 }
 
+/// The exact methods and what makes them so.
+std::vector<render::Options> exactMethods() {
+    return {{.method = "linked_list"}, {.method = "tile", .settings = {{"epsilon", "0"}}}};
+}
+
 class Properties : public RenderTest {
   protected:
-    /// Compares with the reference, in parts of the brightest radiance above 1.
-    void check(const std::string& method, const scene::Settings& settings) {
-        setenv("RC_PARAMS", "max_success=12 seed=20", 0);
-        const char* kept = std::getenv("BRUME_COUNTEREXAMPLES");
-        const std::filesystem::path folder =
-            kept ? std::filesystem::path(kept) : std::filesystem::temp_directory_path();
-        const std::filesystem::path file = folder / ("brume_counterexample_" + method + ".json");
-        std::filesystem::remove(file);
-        mMethod = {.method = method, .settings = settings};
-        const bool holds = rc::check(method + " gives the image of the reference", [&] {
-            const Json json = makeScene();
-            const std::filesystem::path tried = folder / ("brume_property_" + method + ".json");
-            std::ofstream(tried) << json.dump(2) << '\n';
-            const render::PreparedScene prepared =
-                bench::prepareScene(scene::loadScene(tried, log()), log());
-            const Difference d = measure(prepared);
-            const bool isRight = d.nonFinite == 0 && d.max <= 1e-5 * std::max(1.0, d.largest);
-            // The last one that fails is the smallest.
-            std::filesystem::rename(tried, isRight ? tried : file);
-            std::filesystem::remove(tried);
-            RC_ASSERT(d.nonFinite == 0u);
-            RC_ASSERT(d.max <= 1e-5 * std::max(1.0, d.largest));
-        });
-        EXPECT_TRUE(holds) << "kept as " << file;
+    Properties() { mKeepsPipelines = true; }  // a scene takes ten times as long without
+
+    /// The names of the methods that are off by more than 1e-5, in parts of the brightest radiance
+    /// above 1, or not finite.
+    std::string findWrong(const render::PreparedScene& prepared) {
+        const reference::Result expected = renderReference(prepared);
+        std::string wrong;
+        for (const render::Options& method : exactMethods()) {
+            mMethod = method;
+            const Difference d = measure(prepared, expected);
+            if (d.nonFinite == 0 && d.max <= 1e-5 * std::max(1.0, d.largest)) continue;
+            wrong += fmt::format("{} ({:.2e} at ({}, {}), {} not finite) ", method.method, d.max,
+                                 d.worst.x, d.worst.y, d.nonFinite);
+        }
+        return wrong;
     }
 };
 
-TEST_F(Properties, LinkedList_IsExact) { check("linked_list", {}); }
+TEST_F(Properties, ExactMethods_GiveTheImageOfTheReference) {
+    setenv("RC_PARAMS", "max_success=25 seed=20", 0);
+    const char* kept = std::getenv("BRUME_COUNTEREXAMPLES");
+    const std::filesystem::path folder =
+        kept ? std::filesystem::path(kept) : std::filesystem::temp_directory_path();
+    const std::filesystem::path file = folder / "brume_counterexample.json";
+    std::filesystem::remove(file);
+    const bool holds = rc::check("exact methods give the image of the reference", [&] {
+        const Json json = makeScene();
+        const std::filesystem::path tried = folder / "brume_property.json";
+        std::ofstream(tried) << json.dump(2) << '\n';
+        const std::string wrong =
+            findWrong(bench::prepareScene(scene::loadScene(tried, log()), log()));
+        // The last one that fails is the smallest.
+        std::filesystem::rename(tried, wrong.empty() ? tried : file);
+        std::filesystem::remove(tried);
+        RC_ASSERT(wrong == "");
+    });
+    EXPECT_TRUE(holds) << "kept as " << file;
+}
 
-TEST_F(Properties, TileWithoutEpsilon_IsExact) { check("tile", {{"epsilon", "0"}}); }
+/// What random scenes once found: opaque walls seen at flat angles, with lights beside them, were off
+/// by 2e-5 where distances and places were rounded to float.
+TEST_F(Properties, Counterexamples_AreExactNow) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             BRUME_SOURCE_DIR "/tests/render/counterexamples")) {
+        ++count;
+        EXPECT_EQ(findWrong(bench::prepareScene(scene::loadScene(entry.path(), log()), log())), "")
+            << entry.path();
+    }
+    EXPECT_GE(count, 2);
+}
 
 }  // namespace
 }  // namespace brume::test

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <reference/reference.hpp>
 #include <render/render_fixture.hpp>
 
 #include <fmt/format.h>
@@ -137,12 +136,19 @@ std::uint64_t RenderTest::hashOf(const render::PreparedScene& scene,
     return computeHash(render(scene, {.method = "linked_list", .settings = settings}).image);
 }
 
+reference::Result RenderTest::renderReference(const render::PreparedScene& scene) const {
+    return reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = mWithShadows});
+}
+
 Difference RenderTest::measure(const render::PreparedScene& scene) {
+    return measure(scene, renderReference(scene));
+}
+
+Difference RenderTest::measure(const render::PreparedScene& scene,
+                               const reference::Result& expected) {
     render::Options options = mMethod;
     options.triangleHashes = true;
     const render::Result actual = render(scene, options);
-    const reference::Result expected =
-        reference::render({scene.scene, scene.volumes, scene.spheres}, {.shadows = mWithShadows});
     EXPECT_EQ(actual.counters.at("dropped"), 0u);
     EXPECT_EQ(actual.counters.at("exhausted"), 0u);
 

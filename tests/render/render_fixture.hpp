@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gpu/gpu_fixture.hpp>
+#include <reference/reference.hpp>
 #include <render/renderer.hpp>
 #include <scene/mesh_shapes.hpp>
 
@@ -81,8 +82,11 @@ class RenderTest : public GpuTest {
                           render::Options options = {.method = "linked_list"});
     std::uint64_t hashOf(const render::PreparedScene& scene, const scene::Settings& settings = {});
 
+    reference::Result renderReference(const render::PreparedScene& scene) const;
+
     /// Renders with mMethod and the reference. Checks that nothing was lost.
     Difference measure(const render::PreparedScene& scene);
+    Difference measure(const render::PreparedScene& scene, const reference::Result& expected);
 
     /// measure(), and: finite, at most `maxError`; different triangles in at most `excludedShare`
     /// of the pixels. Prints the figures as a record of the test.

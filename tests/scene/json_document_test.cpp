@@ -64,6 +64,16 @@ TEST(JsonDocument_Syntax, Errors_CarryLineAndColumn) {
     EXPECT_NE(parseMessage("[none]").find("syntax error"), std::string::npos);
 }
 
+TEST(JsonDocument_Syntax, ZeroBytes_AreNoEndOfText) {
+    EXPECT_EQ(parseMessage(std::string("{ }\n \0{", 7)),
+              "reading: a.json:2:2: a zero byte, allowed is text");
+}
+
+TEST(JsonDocument_Places, CommentsEnd_AtEveryKindOfLineEnd) {
+    const JsonDocument document = JsonDocument::parse("// a comment\r{ \"b\": 3 }", rules());
+    EXPECT_EQ(JsonNode(document)["b"].where(), "a.json:1:21");
+}
+
 TEST(JsonDocument_Rules, WhatIsForbidden_IsNamedWithItsPlace) {
     EXPECT_EQ(parseMessage("{ \"a\": 1,\n \"b\": 2, \"a\": 3 }"),
               "reading: a.json:2:10: key \"a\": given twice in one object, once is allowed");

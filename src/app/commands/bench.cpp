@@ -77,31 +77,6 @@ std::vector<const bench::Suite*> findSuites(const std::vector<std::string>& name
     return suites;
 }
 
-/// The plans of a run without suites.
-std::vector<bench::Plan> makePlans(const BenchArguments& arguments) {
-    if (arguments.scenes == std::vector<std::string>{"simulate"})
-        return {{.kind = bench::PlanKind::Simulation, .count = arguments.particles}};
-    const bool areStores = !arguments.shadows.empty();
-    bench::Plan plan;
-    plan.kind = areStores ? bench::PlanKind::ShadowPoints : bench::PlanKind::Frames;
-    plan.methods = areStores ? findStores(arguments.shadows) : findMethods(arguments.methods);
-    if (!arguments.size.empty()) plan.size = parseSize(arguments.size);
-    plan.shadow = arguments.shadow;
-    plan.settings = parseSettings(arguments.settings);
-    plan.truth = arguments.truth;
-    plan.count = areStores ? arguments.points : 0;
-    std::vector<std::string> scenes = arguments.scenes;
-    if (scenes.empty())
-        scenes = areStores ? std::vector<std::string>{"shadow_panes", "shadow_discs"}
-                           : std::vector<std::string>{"layers", "spheres_1k_48"};
-    std::vector<bench::Plan> plans;
-    for (const std::string& scene : scenes) {
-        plan.scene = scene;
-        plans.push_back(plan);
-    }
-    return plans;
-}
-
 std::string readTextFile(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw inputError("comparing runs", file.string(), "cannot be read, is it there?");
@@ -160,7 +135,44 @@ bench::Results measure(const BenchArguments& arguments, gpu::Device& device, con
     return results;
 }
 
+/// Software devices measure something else: refused by name, with what else there is.
+void requireGpu(const gpu::DeviceInfo& device) {
+    if (device.type != "cpu") return;
+    std::string others;
+    for (const gpu::DeviceInfo& info : gpu::listDevices())
+        others += fmt::format("{}{} ({}{})", others.empty() ? "" : ", ", info.name, info.type,
+                              info.rejections.empty() ? "" : ", unusable: " + info.rejections[0]);
+    throw inputError(kDoing, "--gpu",
+                     fmt::format("{} is a processor, allowed are devices of the types discrete, "
+                                 "integrated and virtual; this machine has {}",
+                                 device.name, others));
+}
+
 }  // namespace
+
+std::vector<bench::Plan> makePlans(const BenchArguments& arguments) {
+    if (arguments.scenes == std::vector<std::string>{"simulate"})
+        return {{.kind = bench::PlanKind::Simulation, .count = arguments.particles}};
+    const bool areStores = !arguments.shadows.empty();
+    bench::Plan plan;
+    plan.kind = areStores ? bench::PlanKind::ShadowPoints : bench::PlanKind::Frames;
+    plan.methods = areStores ? findStores(arguments.shadows) : findMethods(arguments.methods);
+    if (!arguments.size.empty()) plan.size = parseSize(arguments.size);
+    plan.shadow = arguments.shadow;
+    plan.settings = parseSettings(arguments.settings);
+    plan.truth = arguments.truth;
+    plan.count = areStores ? arguments.points : 0;
+    std::vector<std::string> scenes = arguments.scenes;
+    if (scenes.empty())
+        scenes = areStores ? std::vector<std::string>{"shadow_panes", "shadow_discs"}
+                           : std::vector<std::string>{"layers", "spheres_1k_48"};
+    std::vector<bench::Plan> plans;
+    for (const std::string& scene : scenes) {
+        plan.scene = scene;
+        plans.push_back(plan);
+    }
+    return plans;
+}
 
 void runBench(const BenchArguments& given, const Log& log) {
     if (!given.compare.empty()) return compareRuns(given);
@@ -172,6 +184,7 @@ void runBench(const BenchArguments& given, const Log& log) {
         for (const bench::Plan& plan : makePlans(arguments))
             if (plan.kind != bench::PlanKind::Simulation) findScenes(plan.scene, log);
     const std::unique_ptr<gpu::Device> device = openDevice(arguments.device, log);
+    if (arguments.onGpu) requireGpu(device->info());
     const bench::Results results = measure(arguments, *device, log);
     printResults(results);
     if (!arguments.json.empty()) bench::writeTextFile(arguments.json, bench::toJson(results));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <app/session.hpp>
+#include <bench/suites/suite.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,9 +28,13 @@ struct BenchArguments {
     std::filesystem::path report;  ///< folder for table and images; empty: none
     std::vector<std::filesystem::path> compare;  ///< two results: say what changed, measure nothing
     double threshold = 0.25;                     ///< share of growth that is a regression
+    bool onGpu = false;                          ///< refuse to measure a processor
     std::string command;                         ///< as it was given, for a shell
     DeviceArguments device;
 };
+
+/// What a run without suites measures. Throws an input Error.
+std::vector<bench::Plan> makePlans(const BenchArguments& arguments);
 
 void runBench(const BenchArguments& arguments, const Log& log);
 

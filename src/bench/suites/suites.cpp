@@ -12,12 +12,12 @@ namespace brume::bench {
 
 // One per file of this folder.
 extern const Suite kMethodsSuite, kStochasticSuite, kPhenomenologicalSuite, kLinkedListSuite,
-    kPeerSuite, kHardSuite, kNeedsSuite, kSweepsSuite, kShadowsSuite, kSimulationSuite;
+    kPeerSuite, kHardSuite, kNeedsSuite, kSweepsSuite, kGrowthSuite, kShadowsSuite, kSimulationSuite;
 
 std::span<const Suite> listSuites() {
     static const Suite all[] = {kMethodsSuite, kStochasticSuite, kPhenomenologicalSuite,
                                 kLinkedListSuite, kPeerSuite, kHardSuite, kNeedsSuite,
-                                kSweepsSuite, kShadowsSuite, kSimulationSuite};
+                                kSweepsSuite, kGrowthSuite, kShadowsSuite, kSimulationSuite};
     return all;
 }
 

@@ -1,38 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // How time and error grow with the size of a thing, on logarithmic axes, with the fitted exponents.
-#include <bench/suites/suite.hpp>
+#include <bench/suites/sweep.hpp>
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace brume::bench {
 namespace {
-
-/// One measured place on an axis.
-struct Stop {
-    double x = 0;
-    std::string scene;
-    ivec2 size{0};
-    std::string shadow;
-    scene::Settings settings;
-    std::string setting;  ///< appended to the words of the methods: ":samples=4"
-    std::string truth = {};
-};
-
-enum class Figure { Ms, Rmse };
-
-struct Sweep {
-    std::string title;  ///< "particles"
-    std::string xLabel;
-    std::vector<std::string> methods;
-    std::vector<Stop> stops;
-    std::vector<Figure> figures = {Figure::Ms};
-};
-
-std::string formatCount(int count) {
-    if (count % 1'000'000 == 0) return fmt::format("{}m", count / 1'000'000);
-    if (count % 1'000 == 0) return fmt::format("{}k", count / 1'000);
-    return std::to_string(count);
-}
 
 Sweep sweepParticles(bool isFull) {
     Sweep sweep{"particles", "spheres of 4 pixels radius", {"tile", "linked_list", "weighted"}, {}};
@@ -111,83 +86,10 @@ std::vector<Sweep> makeSweeps(Scale scale) {
             sweepEpsilon(isFull)};
 }
 
-bool needsError(const Sweep& sweep) { return sweep.figures.size() > 1; }
-
-std::vector<Plan> plan(Scale scale) {
-    std::vector<Plan> plans;
-    for (const Sweep& sweep : makeSweeps(scale))
-        for (const Stop& stop : sweep.stops) {
-            Plan plan{.scene = stop.scene,
-                      .size = stop.size,
-                      .shadow = stop.shadow,
-                      .settings = stop.settings,
-                      .withError = needsError(sweep),
-                      .truth = stop.truth};
-            for (const std::string& method : sweep.methods)
-                plan.methods.push_back(method + stop.setting);
-            plans.push_back(plan);
-        }
-    return plans;
-}
-
-/// findRow() does not look at settings, which tell the stops of shadow maps apart.
-const Row* findStop(std::span<const Measurement> rows, const Stop& stop, const std::string& word) {
-    for (const Measurement& m : rows)
-        if (m.row.scene == stop.scene && m.row.method == word && m.row.failure.empty() &&
-            m.row.width == stop.size.x && m.row.height == stop.size.y &&
-            std::all_of(stop.settings.begin(), stop.settings.end(), [&](const auto& setting) {
-                const auto found = m.row.settings.find(setting.first);
-                return found != m.row.settings.end() && found->second == setting.second;
-            }))
-            return &m.row;
-    return nullptr;
-}
-
-Plot makePlot(const Sweep& sweep, Figure figure, std::span<const Measurement> rows) {
-    Plot plot{(figure == Figure::Ms ? "Time by " : "Error by ") + sweep.title, sweep.xLabel,
-              figure == Figure::Ms ? "ms" : "rmse", {}};
-    for (const std::string& method : sweep.methods) {
-        Series series{method, {}};
-        for (const Stop& stop : sweep.stops) {
-            const Row* row = findStop(rows, stop, method + stop.setting);
-            if (!row || (figure == Figure::Rmse && !row->error)) continue;
-            const double y = figure == Figure::Ms ? row->time.median : row->error->rmse;
-            if (y > 0) series.points.emplace_back(stop.x, y);
-        }
-        if (!series.points.empty()) plot.series.push_back(std::move(series));
-    }
-    return plot;
-}
-
-/// From neighbour to neighbour too: where it bends, one exponent says little.
-Cells describeSeries(const Plot& plot, const Series& series) {
-    const auto& points = series.points;
-    const auto between = [&](std::size_t first, std::size_t last) {
-        const double exponent = fitExponent({points[first], points[last]});
-        return std::isfinite(exponent) ? fmt::format("{:.2f}", exponent) : std::string("-");
-    };
-    const std::size_t last = points.size() - 1;
-    return {plot.title, series.name,
-            fmt::format("{:g} .. {:g}", points.front().x, points.back().x),
-            fmt::format("{:.3g} .. {:.3g} {}", points.front().y, points.back().y, plot.yLabel),
-            last > 0 ? fmt::format("{:.2f}", fitExponent(points)) : "-",
-            last > 0 ? between(last - 1, last) : "-"};
-}
+std::vector<Plan> plan(Scale scale) { return planSweeps(makeSweeps(scale)); }
 
 Findings read(std::span<const Measurement> rows, Scale scale) {
-    Findings findings;
-    Table table{.title = "Exponents: figure = c x^e",
-                .header = {"sweep", "method", "x", "from .. to", "e", "e at the end"},
-                .textColumns = 2};
-    for (const Sweep& sweep : makeSweeps(scale))
-        for (const Figure figure : sweep.figures) {
-            Plot plot = makePlot(sweep, figure, rows);
-            for (const Series& series : plot.series)
-                table.rows.push_back(describeSeries(plot, series));
-            if (!plot.series.empty()) findings.plots.push_back(std::move(plot));
-        }
-    findings.tables.push_back(std::move(table));
-    return findings;
+    return readSweeps(makeSweeps(scale), rows);
 }
 
 }  // namespace
