@@ -15,7 +15,7 @@
 namespace brume::bench {
 namespace {
 
-constexpr std::array<SceneInfo, 26> kScenes = {{
+constexpr std::array<SceneInfo, 27> kScenes = {{
     {"layers", "2, 4 ... 16 full-screen layers at 800x600 and 1024x768 (Barta, Kovacs 2011)"},
     {"spheres_1k_16", "1 000 spheres of 16 pixels radius, most of the screen empty"},
     {"spheres_1k_48", "1 000 spheres of 48 pixels radius, about 6.4 million intervals"},
@@ -41,6 +41,7 @@ constexpr std::array<SceneInfo, 26> kScenes = {{
     {"mesh_spheres", "1 000 half-transparent spheres of triangles, 10 x 10 x 10 at 1280x720"},
     {"hard", "inputs at which renderers of transparency break; hard_<name> for one"},
     {"boxes_30", "a cloud of voxels as boxes of tolerance 0.030; boxes_0: as voxels"},
+    {"shadowed_cloud", "a cloud of 96^3 voxels in a sun that casts shadows"},
     {"needs", "pairs of scenes that differ in one feature; need_<name> for one"},
 }};
 
@@ -107,6 +108,7 @@ std::vector<NamedScene> makeScenes(std::string_view name) {
     if (name == "shadow_panes") return {{std::string(name), makeShadowPanes()}};
     if (name == "shadow_discs") return {{std::string(name), makeShadowDiscs(400)}};
     if (name == "mesh_spheres") return {{std::string(name), makeMeshSpheres()}};
+    if (name == "shadowed_cloud") return {makeShadowedCloud()};
     if (auto scene = makeTransparencyScene(name)) return {{std::string(name), *std::move(scene)}};
     if (auto scene = makeNumbered(std::string(name))) return {*std::move(scene)};
     if (auto scene = makeBoxesScene(std::string(name))) return {*std::move(scene)};

@@ -18,4 +18,7 @@ volumes::VolumeGrid makeBrickGrid(const dmat4& worldFromIndex, int n,
 /// for "boxes_0"; nothing for other names.
 std::optional<NamedScene> makeBoxesScene(const std::string& name);
 
+/// "shadowed_cloud": the cloud twice as fine, in a sun with shadow store `visibility`.
+NamedScene makeShadowedCloud();
+
 }  // namespace brume::bench

@@ -19,6 +19,7 @@ struct Needs {
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
     bool varyingLight = false;        ///< on media that scatter: point or spot lights, or shadows
                                       ///< asked for at each place
+    bool lamps = false;               ///< point or spot lights on media that scatter
     bool wholeShadows = false;        ///< some spheres that scatter are shadowed as a whole
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels

@@ -66,6 +66,8 @@ class MediaBins {
     /// shader::BinTotals[2], of spheres and boxes, on the device.
     const gpu::Buffer& totals() const { return mTotals; }
     std::uint64_t bytes() const;
+    /// Of the lists themselves; part of bytes().
+    std::uint64_t pairBytes() const { return mSpheres.pairs.bytes() + mBoxes.pairs.bytes(); }
 
   private:
     struct Set {

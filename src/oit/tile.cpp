@@ -187,7 +187,7 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
         mVolumes = {makePipeline("lit_volumes",
                                  choose(spv::oit_tile_lit_volumes_comp,
                                         spv::oit_tile_lit_volumes_comp_float64),
-                                 kImages),
+                                 kImages, {mNeeds.lamps}),
                     pixels, shader::kClassVolumes};
         mClassifyBoxes = makePipeline(
             "classify_boxes",
@@ -580,7 +580,8 @@ std::optional<double> Tile::errorBound() {
 std::map<std::string, std::uint64_t> Tile::bytes() const {
     std::map<std::string, std::uint64_t> bytes;
     if (mLists) bytes = mLists->bytes();
-    bytes["bins"] = mBins.bytes() + mSphereEnds.bytes();
+    bytes["pairs"] = mBins.pairBytes();
+    bytes["bins"] = mBins.bytes() - bytes["pairs"] + mSphereEnds.bytes();
     bytes["tiles"] = mClasses.bytes() + mAll.tiles.buffer().bytes() +
                      mOrdered.tiles.buffer().bytes() + mVolumes.tiles.buffer().bytes();
     for (const Group& group : mMixed) bytes["tiles"] += group.tiles.buffer().bytes();

@@ -147,7 +147,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         ++needs.lights;
         needs.shadowStores |= shadows::storeBits(light.shadow);
         if (light.type != scene::LightType::Directional && shadowing != 0)
-            needs.varyingLight = true;
+            needs.lamps = needs.varyingLight = true;
         if (light.shadow != "none" && isSampled) needs.varyingLight = true;
     }
     if (needs.shadowStores != 0) needs.shadowing = shadowing;
@@ -171,6 +171,7 @@ std::string describe(const oit::Needs& needs) {
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
            line("varyingLight", needs.varyingLight,
                 "on media: point or spot lights, or shadows at each place") +
+           line("lamps", needs.lamps, "point or spot lights on media") +
            line("wholeShadows", needs.wholeShadows, "spheres that are shadowed as a whole") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +

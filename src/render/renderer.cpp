@@ -17,6 +17,31 @@
 #include <utility>
 
 namespace brume::render {
+
+namespace {
+
+/// Of methods that bin media to tiles: what they hold for each pixel beside the image, and for each
+/// pair of tile and medium.
+std::string describeMethodBytes(const frame::FrameDescription& frame,
+                                const std::map<std::string, std::uint64_t>& bytes,
+                                const std::map<std::string, std::uint64_t>& counters,
+                                std::uint64_t pixelCount) {
+    const auto lists = bytes.find("pairs"), pairs = counters.find("pairs");
+    if (lists == bytes.end() || pairs == counters.end()) return {};
+    std::uint64_t targets = 0;
+    for (const frame::TargetDescription& target : frame.targets)
+        if (target.isTransient && target.name.starts_with("oit.")) targets += target.bytes;
+    for (const char* kind : {"lists", "listOffsets", "listStates"})
+        if (const auto held = bytes.find(kind); held != bytes.end()) targets += held->second;
+    const auto line = [](const char* name, std::uint64_t count, std::uint64_t parts) {
+        const double share = static_cast<double>(count) / static_cast<double>(parts);
+        return fmt::format("  {:<20} {:.2f}\n", name, share);
+    };
+    return line("methodPerPixel", targets, pixelCount) +
+           line("perPair", lists->second, std::max<std::uint64_t>(pairs->second, 1));
+}
+
+}  // namespace
 namespace {
 
 /// Ribbons and billboards are meshes that face the camera: where effects show such, they are
@@ -513,9 +538,13 @@ ShadowSamples Renderer::probeShadows(std::uint32_t light, std::span<const dvec3>
 std::string Renderer::explain() const {
     frame::FrameBuilder frame(mImpl->pool);
     mImpl->declareFrame(frame);
-    std::string text = describe(findNeeds(mImpl->prepared)) + frame.describe().text() + "bytes\n";
-    for (const auto& [kind, count] : mImpl->bytes())
-        text += fmt::format("  {:<20} {}\n", kind, count);
+    const frame::FrameDescription description = frame.describe();
+    const std::map<std::string, std::uint64_t> bytes = mImpl->bytes();
+    std::string text = describe(findNeeds(mImpl->prepared)) + description.text() + "bytes\n";
+    for (const auto& [kind, count] : bytes) text += fmt::format("  {:<20} {}\n", kind, count);
+    const VkExtent2D extent = mImpl->composer.scene.extent();
+    text += describeMethodBytes(description, bytes, mImpl->composer.method->counters(),
+                                std::uint64_t{extent.width} * extent.height);
     return text;
 }
 

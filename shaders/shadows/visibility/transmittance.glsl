@@ -6,30 +6,24 @@
 
 // A node is its distance and the optical depth just before and just behind it, per channel; nodes
 // that are not used stand at 3e38. Between nodes the depth is linear.
+vec3 curveValue(FloatArray values, uint at, uint channels) {
+    return channels == 1u ? vec3(values.at[at])
+                          : vec3(values.at[at], values.at[at + 1u], values.at[at + 2u]);
+}
+
 vec3 curveDepth(FloatArray values, uint first, uint stride, uint channels, float distance,
                 uint count) {
-    vec3 depth = vec3(0);
-    float z0 = values.at[first];
-    bool isPassed = z0 < distance;
-    for (uint k = 0u; k < count; ++k) {
-        uint node = first + k * stride;
-        float z = values.at[node];
-        if (z >= distance) {
-            // Where the curve is going: its value just before this node.
-            if (isPassed && z < 2.0e38) {
-                vec3 before = channels == 1u ? vec3(values.at[node + 1u])
-                                             : vec3(values.at[node + 1u], values.at[node + 2u],
-                                                    values.at[node + 3u]);
-                depth += (before - depth) * ((distance - z0) / (z - z0));
-            }
-            break;
-        }
-        depth = channels == 1u
-                    ? vec3(values.at[node + 2u])
-                    : vec3(values.at[node + 4u], values.at[node + 5u], values.at[node + 6u]);
-        z0 = z;
-    }
-    return depth;
+    // Only distances are looked at on the way: some devices load what a branch would not.
+    uint next = 0u;
+    while (next < count && values.at[first + next * stride] < distance) ++next;
+    uint passed = first + (max(next, 1u) - 1u) * stride;
+    uint ahead = first + min(next, count - 1u) * stride;
+    vec3 depth = next > 0u ? curveValue(values, passed + 1u + channels, channels) : vec3(0);
+    // Where the curve is going: its value just before the next node.
+    float z0 = values.at[passed], z = values.at[ahead];
+    bool isBetween = next > 0u && next < count && z < 2.0e38;
+    float share = isBetween ? (distance - z0) / (z - z0) : 0.0;
+    return depth + (curveValue(values, ahead + 1u, channels) - depth) * share;
 }
 
 vec3 visibilityTransmittance(ShadowMap map, MapPoint point) {
