@@ -12,7 +12,7 @@ namespace brume::oit {
 
 /// The setting of methods that plan their frames.
 inline constexpr scene::SettingInfo kEveryFrameInfo{
-    "everyFrame", "true or false", "false",
+    "everyFrame", "true, false", "false",
     "plan each frame on the device, as within a host's frame, not once by a frame before"};
 
 /// Where a method has reserved memory but frames can be measured: reserves more until one fits.

@@ -104,7 +104,9 @@ TEST(BenchRows, CommandOfEveryRow_AsksForThatRow) {
             EXPECT_EQ(Json(settingsOf(plan)), row.at("settings"));
             EXPECT_EQ(arguments.repeats, row.at("timeMs").at("repeats"));
             EXPECT_EQ(arguments.withError, row.value("/error/rmse"_json_pointer, -1.0) >= 0);
-            if (!plan.shadow.empty()) EXPECT_EQ(plan.shadow, row.at("shadow"));
+            if (!plan.shadow.empty()) {
+                EXPECT_EQ(plan.shadow, row.at("shadow"));
+            }
         }
     EXPECT_GT(count, 200);
 }
