@@ -30,6 +30,21 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
 
+/// What the float nearest to `value` has lost of it.
+inline float roundingOf(double value) {
+    // GCC 12 folds the conversion to float and back for two values next to each other, as if it
+    // lost nothing, unless the float must be seen.
+    const volatile float nearest = static_cast<float>(value);
+    return static_cast<float>(value - static_cast<double>(nearest));
+}
+inline vec3 roundingOf(const dvec3& value) {
+    return {roundingOf(value.x), roundingOf(value.y), roundingOf(value.z)};
+}
+inline glm::mat4x3 roundingOf(const glm::dmat4x3& value) {
+    return {roundingOf(value[0]), roundingOf(value[1]), roundingOf(value[2]),
+            roundingOf(value[3])};
+}
+
 /// Axis-aligned box; empty (lo > hi) by default.
 struct Box3 {
     dvec3 lo{kInfinity};

@@ -15,7 +15,7 @@ shader::AppearancePlace makePlace(const GpuSimulation::Appearance& appearance,
     place.axisY = vec3(dvec3(m[1]));
     place.axisZ = vec3(dvec3(m[2]));
     place.origin = vec3(origin);
-    place.originLo = vec3(origin - dvec3(place.origin));
+    place.originLo = roundingOf(origin);
     place.radiusScale = static_cast<float>(appearance.frame.radiusScale);
     place.firstSphere = appearance.firstSphere;
     place.medium = appearance.medium;

@@ -26,10 +26,6 @@ void setUniform(std::vector<std::byte>& bytes, std::size_t index, const T& value
     std::memcpy(&bytes[index * shader::kUniformStride], &value, sizeof(T));
 }
 
-/// What rounding to float takes from a value.
-float roundingOf(double value) { return static_cast<float>(value - static_cast<float>(value)); }
-vec3 roundingOf(const dvec3& value) { return vec3(value - dvec3(vec3(value))); }
-
 shader::LightData makeLight(const scene::Light& light, const dvec3& origin) {
     shader::LightData data{};
     data.color = vec3(light.color);
@@ -271,7 +267,7 @@ void GpuScene::fillMoved() {
         setUniform(mData.meshes, i,
                    shader::MeshData{
                        .relativeFromObject = glm::mat4x3(relative),
-                       .relativeFromObjectLo = glm::mat4x3(relative - dmat4(glm::mat4(relative))),
+                       .relativeFromObjectLo = roundingOf(glm::dmat4x3(relative)),
                        .normalFromObject = glm::mat3(
                            glm::transpose(glm::inverse(dmat3(mesh.worldFromObject)))),
                        .firstVertex = vertex,
