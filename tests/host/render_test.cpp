@@ -77,8 +77,9 @@ TEST_P(HostMethods, SceneOfAFile_EqualsTheRenderer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HostMethods,
-                         ::testing::Values("sorted", "weighted", "unordered", "moment", "peel",
-                                           "k_buffer", "stochastic", "tile", "linked_list"));
+                         ::testing::Values("sorted", "march", "weighted", "unordered", "moment",
+                                           "peel", "k_buffer", "stochastic", "tile",
+                                           "linked_list"));
 
 /// 120 spheres that fill the view: more than what is reserved before anything is known.
 std::string sceneOfManySpheres() {
@@ -92,7 +93,8 @@ std::string sceneOfManySpheres() {
     for (int i = 0; i < 120; ++i)
         text += std::string(i > 0 ? ", " : "") + R"({ "center": [0.1, 0.1, )" +
                 std::to_string(-0.01 * i) + R"(], "radius": 3.5, "density": 1,
-                "medium": ")" + (i % 2 ? "red" : "blue") + R"(" })";
+                "medium": ")" +
+                (i % 2 ? "red" : "blue") + R"(" })";
     return text + " ] }";
 }
 
@@ -270,7 +272,8 @@ TEST_P(HostParts, OffCentreProjection_ShowsThatPartOfTheWhole) {
         m[0] = 0.3, m[5] = -0.45, m[10] = 0.05, m[14] = 1, m[15] = 1;  // z from 0 to -20, reversed
     }
     if (GetParam().isTurned) whole.y = whole.height, whole.height = -whole.height;
-    // Pixels 18 to 42 and 4 to 20 of 48 x 32, the middle of which is at 1/4, -1/4 of the clip space.
+    // Pixels 18 to 42 and 4 to 20 of 48 x 32, the middle of which is at 1/4, -1/4 of the clip
+    // space.
     BrumeView part = whole;
     part.x = 18, part.y = 4, part.width = 24, part.height = 16;
     double middleY = -0.25;
