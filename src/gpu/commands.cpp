@@ -6,6 +6,7 @@
 #include <gpu/commands.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace brume::gpu {
 namespace {
@@ -79,6 +80,14 @@ VkDescriptorType descriptorType(BindingType type) {
     }
 }
 
+bool isSame(const VkDescriptorBufferInfo& a, const VkDescriptorBufferInfo& b) {
+    return a.buffer == b.buffer && a.offset == b.offset && a.range == b.range;
+}
+
+bool isSame(const VkDescriptorImageInfo& a, const VkDescriptorImageInfo& b) {
+    return a.sampler == b.sampler && a.imageView == b.imageView && a.imageLayout == b.imageLayout;
+}
+
 }  // namespace
 
 void Commands::bindPipeline(const Pipeline& pipeline) {
@@ -104,12 +113,14 @@ const Binding& Commands::requireBinding(std::uint32_t binding, std::uint32_t ele
 }
 
 void Commands::setBound(const Bound& bound) {
-    mIsDirty = true;
     for (Bound& b : std::span(mBound.data(), mBoundCount)) {
         if (b.binding != bound.binding || b.element != bound.element) continue;
+        if (isSame(b.buffer, bound.buffer) && isSame(b.image, bound.image)) return;
         b = bound;
+        mIsDirty = true;
         return;
     }
+    mIsDirty = true;
     if (mBoundCount == kMaxBindings)
         throw misuse(mPipeline, fmt::format("more than {} bindings", kMaxBindings));
     mBound[mBoundCount++] = bound;
@@ -177,7 +188,8 @@ void Commands::flush(VkPipelineBindPoint bindPoint) {
                              fmt::format("binding {}[{}] is missing", b.number, element));
     std::array<VkWriteDescriptorSet, kMaxBindings> writes;
     std::uint32_t count = 0;
-    for (const Bound& bound : bounds) {
+    for (Bound& bound : bounds) {
+        if (std::exchange(bound.isPushed, true)) continue;
         VkWriteDescriptorSet& write = writes[count++];
         write = {};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

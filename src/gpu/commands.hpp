@@ -143,6 +143,7 @@ class Commands {
         VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         VkDescriptorBufferInfo buffer{};
         VkDescriptorImageInfo image{};
+        bool isPushed = false;  ///< descriptors that stay are not pushed again with the next draw
     };
     void bindPipeline(const Pipeline& pipeline);
     const Binding& requireBinding(std::uint32_t binding, std::uint32_t element) const;
