@@ -15,34 +15,25 @@ struct RealRay {
     Real3 origin, direction;
 };
 
-// `position`: pixels from the top-left corner; centres at + 0.5.
+// The place of a pixel on the image plane. `position`: pixels from the top-left corner; centres at
+// + 0.5.
+Real3 pixelPlace(vec2 position) {
+    return makeReal(frame.corner, frame.cornerLo) +
+           Real(position.x) * makeReal(frame.pixelRight, frame.pixelRightLo) +
+           Real(position.y) * makeReal(frame.pixelDown, frame.pixelDownLo);
+}
+
 Ray makeRay(vec2 position) {
-    precise vec2 s = vec2(2.0 * position.x / float(frame.size.x) - 1.0,
-                          1.0 - 2.0 * position.y / float(frame.size.y)) *
-                         vec2(frame.extentX, frame.extentY) +
-                     vec2(frame.centerX, frame.centerY);
-    precise vec3 offset = s.x * frame.right + s.y * frame.up;
-    Ray ray;
-    ray.origin = hasParallelRays() ? offset : vec3(0);
-    ray.direction = hasParallelRays() ? frame.forward : normalize(frame.forward + offset);
-    return ray;
+    precise vec3 place =
+        frame.corner + position.x * frame.pixelRight + position.y * frame.pixelDown;
+    if (hasParallelRays()) return Ray(place, frame.forward);
+    return Ray(vec3(0), normalize(place));
 }
 
 RealRay makeRealRay(vec2 position) {
-    precise Real2 s = Real2(Real(2) * Real(position.x) / Real(frame.size.x) - Real(1),
-                            Real(1) - Real(2) * Real(position.y) / Real(frame.size.y)) *
-                      Real2(makeReal(frame.extentX, frame.extentXLo),
-                            makeReal(frame.extentY, frame.extentYLo)) +
-               Real2(makeReal(frame.centerX, frame.centerXLo),
-                     makeReal(frame.centerY, frame.centerYLo));
-    Real3 offset = s.x * makeReal(frame.right, frame.rightLo) + s.y * makeReal(frame.up, frame.upLo);
-    Real3 forward = makeReal(frame.forward, frame.forwardLo);
-    Real3 towards = forward + offset;
-    RealRay ray;
-    ray.origin = hasParallelRays() ? offset : Real3(0);
-    ray.direction =
-        hasParallelRays() ? forward : towards / sqrt(dot(towards, towards));
-    return ray;
+    Real3 place = pixelPlace(position);
+    if (hasParallelRays()) return RealRay(place, makeReal(frame.forward, frame.forwardLo));
+    return RealRay(Real3(0), place / sqrt(dot(place, place)));
 }
 
 // Clip position for the rasteriser: reversed depth, infinite in perspective.

@@ -9,14 +9,18 @@
 BRUME_STRUCTS_BEGIN
 
 struct FrameData {
-    vec3 right, rightLo;
-    float extentX, extentXLo;  // half width of the image plane (perspective: at distance 1;
-                               // orthographic: m)
-    vec3 up, upLo;
-    float extentY, extentYLo;
-    float centerX, centerXLo;  // middle of the image on that plane, 0 where it is symmetric
-    float centerY, centerYLo;
+    vec3 right;
+    float extentX;  // half width of the image plane (perspective: at distance 1; orthographic: m)
+    vec3 up;
+    float extentY;
+    float centerX;  // middle of the image on that plane, 0 where it is symmetric
+    float centerY;
     vec3 forward, forwardLo;
+    // What is at x, y in pixels from the top-left corner is at corner + x pixelRight + y pixelDown on
+    // that plane: towards it goes the ray of a perspective camera, there begins that of another.
+    vec3 corner, cornerLo;
+    vec3 pixelRight, pixelRightLo;
+    vec3 pixelDown, pixelDownLo;
     float near;    // m, nearest view depth of triangles
     vec3 ambient;  // radiance of the ambient lights together
     uint orthographic;
@@ -88,8 +92,8 @@ BRUME_CONST uint kTileSize = 8u;  // pixels per edge of a screen tile
 BRUME_STRUCTS_END
 
 #ifdef __cplusplus
-static_assert(sizeof(brume::shader::FrameData) == 200);
-static_assert(offsetof(brume::shader::FrameData, size) == 140);
+static_assert(sizeof(brume::shader::FrameData) == 232);
+static_assert(offsetof(brume::shader::FrameData, size) == 172);
 static_assert(sizeof(brume::shader::LightData) == 72);
 static_assert(sizeof(brume::shader::MediumData) == 44);
 static_assert(sizeof(brume::shader::VolumeData) == 76);

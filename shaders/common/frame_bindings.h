@@ -28,5 +28,12 @@ BRUME_CONST uint kConstantLightCount = 68u;
 BRUME_CONST uint kConstantParallelRays = 70u;
 BRUME_CONST uint kUnknownCount = 0xffffffffu;  // the frame says
 
+// Specialization constant of everything that lights something: are some lights not directional?
+BRUME_CONST uint kConstantPointLights = 71u;
+
+// Specialization constant of passes that ask where the opaque surface is: is there one anywhere?
+BRUME_CONST uint kConstantOpaque = 72u;
+BRUME_CONST float kNothingT = 3.0e38f;  // in kBindingOpaqueT, where there is none
+
 BRUME_STRUCTS_END
 #endif

@@ -7,10 +7,12 @@
 #include "phase.glsl"
 #include "shadowing.glsl"
 
+layout(constant_id = kConstantPointLights) const bool kPointLights = true;
+
 // Irradiance on a plane facing a light, at `offset` from it and with nothing in between; `travel`:
 // direction of the light there.
 vec3 irradianceBeside(LightData light, vec3 offset, out vec3 travel) {
-    if (light.type == kLightDirectional) {
+    if (!kPointLights || light.type == kLightDirectional) {
         travel = light.direction;
         return light.color;
     }

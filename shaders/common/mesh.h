@@ -36,7 +36,11 @@ struct MaterialData {
     float collimation;  // thin: 1 keeps the background sharp
     float ior;          // thin and solid
     float roughness;    // of glass that mirrors; < 0: it does not
+    vec3 depth;         // thin: -ln(1 - coverage (1 - transmission)), at most kMaxDepth
 };
+
+// An optical depth behind which nothing is seen; sums of it stay finite.
+BRUME_CONST float kMaxDepth = 80.0f;
 
 // Own bindings of every pass that draws meshes.
 BRUME_CONST uint kBindingVertices = 8u;
@@ -53,6 +57,9 @@ BRUME_CONST uint kConstantGlossy = 65u;
 // Has any of them a texture?
 BRUME_CONST uint kConstantTextured = 69u;
 
+// Is any of them a solid?
+BRUME_CONST uint kConstantSolids = 73u;
+
 // Bytes from one MeshData or MaterialData to the next: uniform blocks may start at multiples of it
 // on every device.
 BRUME_CONST uint kUniformStride = 256u;
@@ -67,6 +74,6 @@ BRUME_STRUCTS_END
 static_assert(sizeof(brume::shader::VertexData) == 32);
 static_assert(sizeof(brume::shader::MeshData) == 140);
 static_assert(offsetof(brume::shader::MeshData, firstVertex) == 132);
-static_assert(sizeof(brume::shader::MaterialData) == 96);
+static_assert(sizeof(brume::shader::MaterialData) == 108);
 #endif
 #endif

@@ -19,9 +19,14 @@
 #define RealMat4x3 mat4x3
 #endif
 
-// A number kept as its float and what that has lost.
+// A number kept as its float and what that has lost, which makes no other float.
+#ifdef BRUME_FLOAT64
 Real makeReal(float hi, float lo) { return Real(hi) + Real(lo); }
 Real3 makeReal(vec3 hi, vec3 lo) { return Real3(hi) + Real3(lo); }
+#else
+Real makeReal(float hi, float lo) { return hi; }
+Real3 makeReal(vec3 hi, vec3 lo) { return hi; }
+#endif
 
 // What the float nearest to x has lost of it.
 float findLo(Real x) { return float(x - Real(float(x))); }

@@ -21,6 +21,7 @@ layout(binding = kBindingEmissionTexture) uniform sampler2D emissionTexture;
 layout(binding = kBindingEnvironment) uniform sampler2D environmentMap;
 layout(constant_id = kConstantGlossy) const bool kGlossy = true;
 layout(constant_id = kConstantTextured) const bool kTextured = true;
+layout(constant_id = kConstantSolids) const bool kSolids = true;
 
 struct SurfacePoint {
     MaterialData material;
@@ -33,19 +34,25 @@ struct SurfacePoint {
     bool isFront;
 };
 
-// Discards what an alpha cutoff removes.
+// Discards what an alpha cutoff removes. (Meshes without a texture that it removes are not drawn.)
 SurfacePoint findSurfacePoint() {
-    RealRay ray = makeRealRay(gl_FragCoord.xy);
-    vec3 direction = vec3(ray.direction);
     SurfacePoint point;
     Real3 planeNormal = makeReal(plane.xyz, planeLo.xyz);
-    Real facing = dot(planeNormal, ray.direction);
-    Real t = (makeReal(plane.w, planeLo.w) - dot(planeNormal, ray.origin)) /
-             (abs(facing) > Real(1e-20) ? facing : Real(1e-20));
+    Real distance = makeReal(plane.w, planeLo.w);
+    Real3 place = pixelPlace(gl_FragCoord.xy);
+    Real3 along = hasParallelRays() ? makeReal(frame.forward, frame.forwardLo) : place;
+    if (hasParallelRays()) distance -= dot(planeNormal, place);
+    Real facing = dot(planeNormal, along);
+    Real steps = distance / (abs(facing) > Real(1e-20) ? facing : Real(1e-20));
     point.isFront = facing < Real(0);
+    Real3 position = along * steps;
+    Real t = steps;
+    if (hasParallelRays())
+        position += place;
+    else
+        t *= sqrt(dot(place, place));
     point.t = float(t);
     point.tLo = findLo(t);
-    Real3 position = ray.origin + ray.direction * t;
     point.position = vec3(position);
     point.positionLo = vec3(position - Real3(point.position));
     point.material = material;
@@ -56,9 +63,9 @@ SurfacePoint findSurfacePoint() {
     point.material.alphaCutoff += float(nothing);
     point.color = vec4(1);
     if (kTextured) point.color = textureLod(colorTexture, uv, 0.0);
-    if (point.color.a * material.coverage < point.material.alphaCutoff) discard;
+    if (kTextured && point.color.a * material.coverage < point.material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
-    point.normal = dot(n, direction) > 0.0 ? -n : n;
+    point.normal = dot(n, vec3(along)) > 0.0 ? -n : n;
     return point;
 }
 
@@ -73,6 +80,8 @@ vec3 sentRadiance(SurfacePoint point, vec3 albedo) {
     return albedo * point.color.rgb * diffuseRadiance(point.position, point.positionLo, point.normal) +
            emittedRadiance(point);
 }
+
+bool isSolid(SurfacePoint point) { return kSolids && point.material.type == kMaterialSolid; }
 
 // What a point of glass mirrors, and the share of light that this leaves for everything else.
 struct Gloss {

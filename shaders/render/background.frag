@@ -5,11 +5,14 @@
 #include "../common/camera.glsl"
 #include "../common/environment.glsl"
 
+layout(constant_id = 0) const bool kEnvironment = true;
 layout(binding = kBindingOwn) uniform sampler2D environment;
 layout(location = 0) out vec4 color;
 layout(location = 1) out float opaqueT;
 
 void main() {
-    color = vec4(environmentRadiance(environment, makeRay(gl_FragCoord.xy).direction), 1.0);
-    opaqueT = 3.0e38;
+    vec3 radiance = frame.background;
+    if (kEnvironment) radiance = environmentRadiance(environment, makeRay(gl_FragCoord.xy).direction);
+    color = vec4(radiance, 1.0);
+    opaqueT = kNothingT;
 }

@@ -112,6 +112,7 @@ void Scene::make(const Made& wanted) {
     const BrumeInside inside = mModel.inside();
     if (inside != BRUME_INSIDE_NOTHING) composer->callers.color = wanted.color.format;
     if (inside == BRUME_INSIDE_COLOR_DEPTH) composer->callers.depth = wanted.depth.format;
+    composer->isHosted = true;
     composer->addMethod();
     composer->method->prepare({});
     mBackdrop = std::make_unique<render::Backdrop>(device, wanted.color.format);

@@ -47,7 +47,10 @@ std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
             {shader::kConstantGlossy, needs.glossy},
             {shader::kConstantLightCount, needs.lights},
             {shader::kConstantParallelRays, needs.orthographic},
-            {shader::kConstantTextured, needs.textured}};
+            {shader::kConstantTextured, needs.textured},
+            {shader::kConstantPointLights, needs.pointLights},
+            {shader::kConstantOpaque, needs.opaque},
+            {shader::kConstantSolids, needs.solids}};
 }
 
 std::span<const std::uint32_t> chooseReal(const gpu::Device& device,

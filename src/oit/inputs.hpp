@@ -16,14 +16,17 @@ struct Needs {
     bool uniformSpheres = false;      ///< some are of constant density
     bool boxes = false;               ///< bricks, tiles or boxes of volumes
     bool surfaces = false;            ///< thin or solid triangles
+    bool opaque = false;              ///< something may be opaque: meshes, or what a host has drawn
     bool varyingDensity = false;      ///< smooth spheres, bricks, soft boxes
     bool varyingLight = false;        ///< on media that scatter: point or spot lights, or shadows
                                       ///< asked for at each place
     bool lamps = false;               ///< point or spot lights on media that scatter
+    bool pointLights = false;         ///< there are lights that are not directional
     bool wholeShadows = false;        ///< some spheres that scatter are shadowed as a whole
     bool solids = false;              ///< closed meshes among the surfaces
     bool colouredExtinction = false;  ///< extinction of media or solids differs between channels
     bool colouredSurfaces = false;    ///< transmission of thin surfaces does
+    bool environment = false;         ///< the background is a picture, not the same everywhere
     bool hostLayers = false;          ///< a host draws surfaces of its own into the method's targets
     bool textured = false;            ///< some material has a texture
     bool glossy = false;              ///< glass that mirrors background and lights

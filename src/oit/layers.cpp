@@ -53,6 +53,7 @@ Solids::Solids(gpu::Device& device, const std::string& name, const Inputs& input
                   .vertexSpirv = spv::common_mesh_vert,
                   .fragmentSpirv = spv::oit_layers_solids_frag,
                   .bindings = join(surfaceBindings(), {kOpaqueT}),
+                  .constants = lightingConstants(inputs.needs),
                   .colors = {{sums, gpu::Blend::additive()},
                              {sums, gpu::Blend::additive()},
                              {VK_FORMAT_R32G32_SFLOAT, maximum()}}}};

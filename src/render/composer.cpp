@@ -53,6 +53,7 @@ void Composer::addShadows(const Box3& translucentBounds) {
 void Composer::addMethod() {
     oit::Inputs inputs = scene.makeInputs();
     inputs.needs.hostLayers = options.hostLayers;
+    inputs.needs.opaque = inputs.needs.opaque || isHosted;
     inputs.callers = callers;
     method = oit::createMethod(options.method, device, inputs, options.settings);
 }

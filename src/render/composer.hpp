@@ -47,6 +47,7 @@ class Composer {
     std::uint64_t shuffleSeed;  ///< setting "shuffle"; 0: spheres stay as they come
     scene::Settings shadowSettings;
     oit::CallersRendering callers;  ///< set before addMethod(): it draws there
+    bool isHosted = false;          ///< set before addMethod(): a host has drawn what lies behind
     GpuScene scene;
     EffectParticles effects;
     OpaquePass opaque;

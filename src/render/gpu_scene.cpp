@@ -67,6 +67,9 @@ shader::MaterialData makeMaterial(const scene::Material& material) {
     data.collimation = static_cast<float>(material.collimation);
     data.ior = static_cast<float>(material.ior);
     data.roughness = static_cast<float>(material.roughness);
+    const dvec3 loss = material.coverage * (1.0 - material.transmission);
+    for (int c = 0; c < 3; ++c)
+        data.depth[c] = std::min(static_cast<float>(-std::log1p(-loss[c])), shader::kMaxDepth);
     return data;
 }
 
@@ -91,6 +94,21 @@ dmat4 relativeFrom(const dmat4& worldFromObject, const dvec3& origin) {
     dmat4 m = worldFromObject;
     m[3] -= dvec4(origin, 0);
     return m;
+}
+
+/// As shaders/common/frame.h says.
+struct ImagePlane {
+    dvec3 corner, pixelRight, pixelDown;
+};
+
+ImagePlane makeImagePlane(const scene::CameraFrame& camera) {
+    ImagePlane plane;
+    plane.corner = (camera.centerX - camera.extentX) * camera.right +
+                   (camera.centerY + camera.extentY) * camera.up;
+    if (camera.type != scene::CameraType::Orthographic) plane.corner += camera.forward;
+    plane.pixelRight = 2 * camera.extentX / camera.width * camera.right;
+    plane.pixelDown = -2 * camera.extentY / camera.height * camera.up;
+    return plane;
 }
 
 Box3 findBounds(const PreparedScene& prepared) {
@@ -216,20 +234,21 @@ void GpuScene::fillFrame() {
     for (const scene::Medium& medium : scene.media) mData.media.push_back(makeMedium(medium));
     const scene::Texture* environment = scene.background.environment.get();
     const VkExtent2D size = extent();
+    const ImagePlane plane = makeImagePlane(camera);
     mData.frame = {.right = vec3(camera.right),
-                   .rightLo = roundingOf(camera.right),
                    .extentX = static_cast<float>(camera.extentX),
-                   .extentXLo = roundingOf(camera.extentX),
                    .up = vec3(camera.up),
-                   .upLo = roundingOf(camera.up),
                    .extentY = static_cast<float>(camera.extentY),
-                   .extentYLo = roundingOf(camera.extentY),
                    .centerX = static_cast<float>(camera.centerX),
-                   .centerXLo = roundingOf(camera.centerX),
                    .centerY = static_cast<float>(camera.centerY),
-                   .centerYLo = roundingOf(camera.centerY),
                    .forward = vec3(camera.forward),
                    .forwardLo = roundingOf(camera.forward),
+                   .corner = vec3(plane.corner),
+                   .cornerLo = roundingOf(plane.corner),
+                   .pixelRight = vec3(plane.pixelRight),
+                   .pixelRightLo = roundingOf(plane.pixelRight),
+                   .pixelDown = vec3(plane.pixelDown),
+                   .pixelDownLo = roundingOf(plane.pixelDown),
                    .near = static_cast<float>(camera.near),
                    .ambient = vec3(ambient),
                    .orthographic = camera.type == scene::CameraType::Orthographic,
@@ -379,6 +398,8 @@ void GpuScene::makeMeshes() {
             .isSolid = material.type == scene::MaterialType::Solid,
             .colorTexture = makeTexture(material.colorTexture.get()),
             .emissionTexture = makeTexture(material.emissionTexture.get())};
+        // Without a texture an alpha cutoff takes all of a mesh or nothing.
+        if (!material.colorTexture && material.coverage < material.alphaCutoff) continue;
         (material.type == scene::MaterialType::Opaque ? mOpaque : mTransparent).push_back(draw);
     }
     growArray<shader::VertexData>(mVertices, "render.vertices", vertices);

@@ -27,7 +27,10 @@ void addThinNeeds(const scene::Material& material, oit::Needs& needs) {
 void addSurfaceNeeds(const scene::Scene& scene, oit::Needs& needs) {
     for (const scene::Mesh& mesh : scene.meshes) {
         const scene::Material& material = scene.materials[mesh.material];
-        if (material.type == scene::MaterialType::Opaque) continue;
+        if (material.type == scene::MaterialType::Opaque) {
+            needs.opaque = true;
+            continue;
+        }
         needs.surfaces = true;
         if (material.roughness >= 0) needs.glossy = true;
         if (material.type == scene::MaterialType::Solid) needs.solids = true;
@@ -137,6 +140,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
     addSurfaceNeeds(scene, needs);
     for (const scene::Material& material : scene.materials)
         if (material.colorTexture || material.emissionTexture) needs.textured = true;
+    needs.environment = scene.background.environment != nullptr;
     needs.media = static_cast<std::uint32_t>(scene.media.size());
     for (const scene::Medium& medium : scene.media)
         if (!isGrey(medium.extinction)) needs.colouredExtinction = true;
@@ -146,6 +150,7 @@ oit::Needs findNeeds(const PreparedScene& prepared) {
         if (light.type == scene::LightType::Ambient) continue;
         ++needs.lights;
         needs.shadowStores |= shadows::storeBits(light.shadow);
+        if (light.type != scene::LightType::Directional) needs.pointLights = true;
         if (light.type != scene::LightType::Directional && shadowing != 0)
             needs.lamps = needs.varyingLight = true;
         if (light.shadow != "none" && isSampled) needs.varyingLight = true;
@@ -167,15 +172,18 @@ std::string describe(const oit::Needs& needs) {
     return "needs\n" + line("spheres", needs.spheres, "soft spheres of particles or the scene") +
            line("boxes", needs.boxes, "bricks, tiles or boxes of volumes") +
            line("surfaces", needs.surfaces, "thin or solid glass, cards") +
+           line("opaque", needs.opaque, "opaque meshes, or what a host has drawn") +
            line("solids", needs.solids, "closed meshes of glass") +
            line("varyingDensity", needs.varyingDensity, "densities that change along a ray") +
            line("varyingLight", needs.varyingLight,
                 "on media: point or spot lights, or shadows at each place") +
            line("lamps", needs.lamps, "point or spot lights on media") +
+           line("pointLights", needs.pointLights, "point or spot lights") +
            line("wholeShadows", needs.wholeShadows, "spheres that are shadowed as a whole") +
            line("colouredExtinction", needs.colouredExtinction,
                 "three exponentials instead of one") +
            line("colouredSurfaces", needs.colouredSurfaces, "thin surfaces that transmit colours") +
+           line("environment", needs.environment, "a picture behind everything") +
            line("textured", needs.textured, "materials with textures") +
            line("glossy", needs.glossy, "glass mirrors background and lights") +
            line("diffusion", needs.diffusion, "frosted surfaces blur what is behind them") +

@@ -38,6 +38,7 @@ OpaquePass::OpaquePass(gpu::Device& device, const oit::Needs& needs)
                    .fragmentSpirv = spv::render_background_frag,
                    .bindings = oit::join(oit::frameBindings(),
                                          {{shader::kBindingOwn, gpu::BindingType::SampledImage}}),
+                   .specialization = {needs.environment},
                    .colors = {{kColorFormat, {}}, {kDistanceFormat, {}}}}),
       mOpaque(device, {.name = "render.opaque",
                        .vertexSpirv = oit::chooseReal(device, spv::common_mesh_vert,

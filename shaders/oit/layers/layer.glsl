@@ -5,6 +5,7 @@
 #define BRUME_OIT_LAYERS_LAYER_GLSL
 #include "../../common/camera.glsl"
 #include "../../common/exponential.glsl"
+#include "../../common/opaque.glsl"
 #include "layers.h"
 
 layout(push_constant, scalar) uniform Push { LayerPush push; };
@@ -12,7 +13,6 @@ layout(constant_id = kLayerConstantBoxes) const bool kBoxes = true;
 layout(constant_id = kLayerConstantVarying) const bool kVarying = true;
 layout(constant_id = kLayerConstantColoured) const bool kColoured = true;
 layout(constant_id = kLayerConstantScale) const uint kScale = 1u;
-layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 
 struct Layer {
     vec2 t;         // m along the ray, where it begins and ends; of a surface both are equal
@@ -26,7 +26,7 @@ struct Layer {
 // Centre of the target's texel in pixels of the image.
 vec2 layerPixel() { return gl_FragCoord.xy * float(kScale); }
 
-float opaqueDistance() { return texelFetch(opaqueT, ivec2(layerPixel()), 0).x; }
+float opaqueDistance() { return opaqueDistanceAt(ivec2(layerPixel())); }
 
 // What orders layers that are not mixed: the middle, because many media may begin at the eye.
 float layerKey(Layer layer) { return 0.5 * (layer.t.x + layer.t.y); }

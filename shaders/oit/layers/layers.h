@@ -2,7 +2,7 @@
 // Media, thin surfaces and solids rastered as layers; C++ and GLSL.
 #ifndef BRUME_SHADERS_OIT_LAYERS_H
 #define BRUME_SHADERS_OIT_LAYERS_H
-#include "../../common/shared.h"
+#include "../../common/mesh.h"
 
 BRUME_STRUCTS_BEGIN
 
@@ -27,9 +27,6 @@ BRUME_CONST uint kBindingSolidDepth = 14u;   // RGBA32F: optical depth; faces en
 BRUME_CONST uint kBindingSolidSource = 15u;  // RGBA32F: scattering coefficient times length
 BRUME_CONST uint kBindingSolidRange = 16u;   // RG32F: -distance of the nearest face, of the farthest
 BRUME_CONST uint kBindingLayerOwn = 17u;     // a method's own bindings begin here
-
-// An optical depth behind which nothing is seen; sums of it stay finite.
-BRUME_CONST float kMaxDepth = 80.0f;
 
 BRUME_STRUCTS_END
 

@@ -9,9 +9,8 @@
 // False behind something opaque, and for faces that mirror nothing. `point` is what the ray meets.
 bool findSurfaceLayer(out Layer layer, out SurfacePoint point) {
     point = findSurfacePoint();
-    bool isSolid = point.material.type == kMaterialSolid;
     layer.t = vec2(max(point.t, 0.0));
-    if (isSolid) {
+    if (isSolid(point)) {
         Gloss gloss = findGloss(point);
         layer.radiance = gloss.radiance;
         layer.loss = vec3(1.0 - gloss.rest);
@@ -21,10 +20,13 @@ bool findSurfaceLayer(out Layer layer, out SurfacePoint point) {
         layer.loss = response.coverage * (1.0 - response.transmission);
     }
     if (!kColoured) layer.loss = vec3(meanOf(layer.loss));
-    layer.depth = depthFromLoss(layer.loss);
+    // Where nothing varies over a surface, its material says it.
+    bool isEven = !kTextured && !kGlossy;
+    layer.depth = isEven ? point.material.depth : depthFromLoss(layer.loss);
     layer.primitive = triangleHash(push.mesh, triangle) ^ (point.isFront ? 0u : 0x80000000u);
     layer.object = triangleHash(push.mesh, 0xffffffffu);
-    return point.t < opaqueDistance() && (!isSolid || (kGlossy && material.roughness >= 0.0));
+    bool isSeen = !kOpaque || point.t < opaqueDistance();
+    return isSeen && (!isSolid(point) || (kGlossy && point.material.roughness >= 0.0));
 }
 
 vec4 findShares(Layer layer, vec4 shares) { return layer.t.xxxx; }

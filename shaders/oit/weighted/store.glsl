@@ -19,7 +19,9 @@ layout(location = 3) out vec4 extra2;    // the fine sum where there is an offse
 
 // By view distance: depth-buffer values depend on near and far. A power law knows no scale.
 float weightAt(float t) {
-    return clamp(exp2(-kPower * log2(max(t, 1e-9) / kDistance)), 1.0 / kMaxWeight, kMaxWeight);
+    float nearness = kDistance / max(t, 1e-9);
+    float weight = kPower == 2.0 ? nearness * nearness : exp2(kPower * log2(nearness));
+    return clamp(weight, 1.0 / kMaxWeight, kMaxWeight);
 }
 
 // `offset`: coverage times (refraction in pixels, 1, distance); `blur2`: squared pixels.

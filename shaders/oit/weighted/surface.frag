@@ -43,13 +43,12 @@ void main() {
     Layer layer;
     SurfacePoint point;
     bool isLayer = findSurfaceLayer(layer, point);
-    bool isSolid = point.material.type == kMaterialSolid;
-    bool isRefracted = kRefraction && (!isSolid || point.isFront) && point.t < opaqueDistance();
+    bool isRefracted = kRefraction && (!isSolid(point) || point.isFront) && point.t < opaqueDistance();
     if (!isLayer && !isRefracted) discard;
     if (!isLayer) layer.radiance = layer.loss = layer.depth = vec3(0);
-    float coverage = isSolid ? 1.0 : point.material.coverage * point.color.a;
+    float coverage = isSolid(point) ? 1.0 : point.material.coverage * point.color.a;
     vec4 offset = vec4(0);
     if (isRefracted)
         offset = coverage * vec4(refractionOf(point, makeRay(gl_FragCoord.xy)), 1.0, layer.t.x);
-    storeWeighted(layer, offset, kDiffusion && !isSolid ? blurOf(point, coverage) : 0.0);
+    storeWeighted(layer, offset, kDiffusion && !isSolid(point) ? blurOf(point, coverage) : 0.0);
 }
