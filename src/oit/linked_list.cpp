@@ -16,7 +16,8 @@
 //         that cap loop iterations do in one dispatch (counter "exhausted" > 0: not exact there).
 //         Without shaderFloat64, media with optical depths of order 1 within 1e-6 of their distance
 //         (sheets, rims) are off by up to 1e-4.
-// Cost: 8 bytes per interval and surface, 52 more per surface, in blocks of 64 per tile; 8 per pixel,
+// Cost: 8 bytes per interval and surface, 32 more per surface (60 with solids), in blocks of 64 per
+//         tile; short lists of thin surfaces alone: 32 per surface, 24 where all are grey. 8 per pixel,
 //         16 with surfaces; where lists need several rounds to resolve, 216 more per pixel.
 #include <oit/pixel_lists.hpp>
 
@@ -103,7 +104,8 @@ const MethodInfo& info() {
         .paper = "Barta, Kovacs: Order Independent Transparency with Per-Pixel Linked Lists, 2011",
         .exactness = Exactness::Exact,
         .passes = "1 compute (media) and 1 raster (surfaces), each twice: count, store; 1 resolve",
-        .bytesPerPixel = "16 + 8 n + 60 s for n medium intervals and s surface fragments",
+        .bytesPerPixel = "16 + 8 n + 40 s for n medium intervals and s surface fragments; 68 s with solids; "
+                         "16 + 32 s of thin surfaces alone, 24 s of grey ones",
         .limits = "one screen tile's lists must fit into the budget",
         .settings = {{"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for list entries and surface records; beyond it, the screen is "

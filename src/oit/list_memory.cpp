@@ -105,7 +105,9 @@ shader::PlacePush ListMemory::makePlacePush() const {
             .slotCapacity = mSlotCapacity,
             .bandCount = mBandCount,
             .blockCapacity = static_cast<std::uint32_t>(mBlockCount),
-            .drawCount = mDrawCount};
+            .drawCount = mDrawCount,
+            .recordBytes = mRecordBytes,
+            .hasEntries = mHasEntries};
 }
 
 void ListMemory::declareBegin(frame::FrameBuilder& frame, const Inputs& inputs) {

@@ -24,6 +24,11 @@ class ListMemory {
     void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount);
     /// Any of the screen's tiles may have lists: passes ahead of declareBegin() fill tileMap().
     void setAnyTiles(std::uint32_t screenTileCount);
+    /// What a surface takes, beside its entry if there are any.
+    void setRecords(std::uint32_t recordBytes, bool hasEntries) {
+        mRecordBytes = recordBytes;
+        mHasEntries = hasEntries;
+    }
     /// Makes the memory for lists that `bandCount` bands use one after the other.
     void allocate(std::uint64_t blocks, std::uint32_t bandCount);
 
@@ -69,7 +74,8 @@ class ListMemory {
 
     gpu::Device* mDevice;
     std::string mName;
-    bool mHasSurfaces;
+    bool mHasSurfaces, mHasEntries = true;
+    std::uint32_t mRecordBytes = 0;
     const MediaBins* mBins;
     gpu::PrefixSum mPrefixSum;
     gpu::ComputePipeline mBegin, mTotals, mPlace, mBandArguments;

@@ -12,6 +12,7 @@
 #include <spv/oit/linked_list/count.comp.hpp>
 #include <spv/oit/linked_list/resolve.comp.float64.hpp>
 #include <spv/oit/linked_list/resolve.comp.hpp>
+#include <spv/oit/linked_list/resolve_surfaces.comp.hpp>
 #include <spv/oit/linked_list/store.comp.hpp>
 #include <spv/oit/linked_list/surface_count.frag.hpp>
 #include <spv/oit/linked_list/surface_store.frag.float64.hpp>
@@ -52,15 +53,19 @@ gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& na
 
 gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
                                           std::span<const std::uint32_t> spirv,
-                                          std::vector<gpu::NumberedConstant> constants = {}) {
+                                          std::vector<std::uint32_t> specialization,
+                                          std::vector<gpu::NumberedConstant> constants) {
     return {device,
             {.name = name,
              .vertexSpirv = chooseReal(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
              .fragmentSpirv = spirv,
              .bindings = join(surfaceBindings(), {kOpaqueT}),
              .pushConstantBytes = sizeof(shader::ListPush),
+             .specialization = std::move(specialization),
              .constants = std::move(constants)}};
 }
+
+bool hasMedia(const Needs& needs) { return needs.spheres || needs.boxes; }
 
 }  // namespace
 
@@ -86,42 +91,52 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
       mNeeds(needs),
       mBins(&bins),
       mMemory(device, name, needs, bins) {
+    setAlone(false);
     const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces};
     const auto mediaAnd = [](std::vector<gpu::Binding> more) {
         return join(mediaBindings(), more);
     };
     mCount = makeListPipeline(device, name + ".count", spv::oit_linked_list_count_comp,
                               mediaAnd({kOpaqueT}), mediaUsed);
-    mStore = makeStore(false);
-    mResolve = makeResolve();
-    if (mNeeds.surfaces) {
+    if (mNeeds.surfaces)
         mSurfaceCount = makeSurfacePipeline(device, name + ".surface_count",
                                             spv::oit_linked_list_surface_count_frag,
-                                            lightingConstants(mNeeds));
-        mSurfaceStore = makeSurfacePipeline(device, name + ".surface_store",
-                                            chooseReal(device, spv::oit_linked_list_surface_store_frag,
-                                                   spv::oit_linked_list_surface_store_frag_float64),
-                                            lightingConstants(mNeeds));
-    }
+                                            {}, lightingConstants(mNeeds));
+    makeStores(false);
+    mResolve = makeResolve();
 }
 
-gpu::ComputePipeline PixelLists::makeStore(bool mayLackRoom) const {
-    return makeListPipeline(*mDevice, mName + ".store", spv::oit_linked_list_store_comp,
-                            join(mediaBindings(), {kOpaqueT}),
-                            {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces, mayLackRoom});
+void PixelLists::makeStores(bool mayLackRoom) {
+    mStore = makeListPipeline(*mDevice, mName + ".store", spv::oit_linked_list_store_comp,
+                              join(mediaBindings(), {kOpaqueT}),
+                              {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces, mayLackRoom});
+    if (!mNeeds.surfaces) return;
+    mSurfaceStore = makeSurfacePipeline(
+        *mDevice, mName + ".surface_store",
+        chooseReal(*mDevice, spv::oit_linked_list_surface_store_frag,
+                   spv::oit_linked_list_surface_store_frag_float64),
+        {hasMedia(mNeeds), mMemory.bandCount() == 1, mIsAlone,
+         mNeeds.colouredSurfaces},
+        lightingConstants(mNeeds));
 }
 
 gpu::ComputePipeline PixelLists::makeResolve() const {
+    const std::vector<gpu::Binding> images = {
+        kOpaqueT,
+        {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
+        {shader::kBindingResult, gpu::BindingType::StorageImage}};
+    if (mIsAlone)
+        return makeListPipeline(*mDevice, mName + ".resolve",
+                                spv::oit_linked_list_resolve_surfaces_comp,
+                                join(mediaBindings(), images), {mNeeds.colouredSurfaces});
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     return makeListPipeline(
         *mDevice, mName + ".resolve",
         chooseReal(*mDevice, spv::oit_linked_list_resolve_comp,
                spv::oit_linked_list_resolve_comp_float64),
-        join(mediaBindings(), {kOpaqueT,
-                               {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-                               {shader::kBindingResult, gpu::BindingType::StorageImage}}),
+        join(mediaBindings(), images),
         {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
-         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia ? mNeeds.media : 0},
+         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia ? mNeeds.media : 0, mNeeds.solids},
         lightingConstants(mNeeds));
 }
 
@@ -131,6 +146,30 @@ std::uint32_t PixelLists::sliceCountFor(std::uint32_t mediaCount) const {
 
 void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {
     mSliceCount = sliceCountFor(mBins->longestList());
+    setAlone(mNeeds.surfaces && !hasMedia(mNeeds) && !mNeeds.solids);
+    measureLengths(measure);
+    if (mIsAlone && mMemory.counters().longest > shader::kLongestOfSurfaces) {
+        setAlone(false);
+        measureLengths(measure);
+    }
+    const Memory memory = planMemory();
+    mMemory.allocate(memory.blocks, memory.bandCount);
+    makeStores(false);
+    mResolve = makeResolve();
+    planRounds(measure);
+}
+
+void PixelLists::setAlone(bool isAlone) {
+    mIsAlone = isAlone;
+    const std::uint32_t thin =
+        mNeeds.colouredSurfaces ? shader::kRecordBytes : shader::kGreyRecordBytes;
+    mMemory.setRecords(isAlone           ? thin
+                       : mNeeds.solids ? shader::kSolidRecordBytes
+                                       : shader::kRecordBytes,
+                       !isAlone);
+}
+
+void PixelLists::measureLengths(const OitMethod::MeasureFunction& measure) {
     mMemory.allocate(1, 1);
     measure([this](frame::FrameBuilder& frame, const Inputs& inputs) {
         mBins->declareCount(frame, inputs);
@@ -139,9 +178,6 @@ void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {
         mMemory.declarePlace(frame);
         mMemory.declareReadback(frame);
     });
-    const Memory memory = planMemory();
-    mMemory.allocate(memory.blocks, memory.bandCount);
-    planRounds(measure);
 }
 
 void PixelLists::reserve(std::uint32_t blocksPerTile) {
@@ -159,7 +195,11 @@ void PixelLists::reserve(std::uint32_t blocksPerTile) {
         bandCount = static_cast<std::uint32_t>(std::min<std::uint64_t>(
             wanted / (blocks - seen.largestTile) + 1, kMostBands));
     mMemory.allocate(blocks, bandCount);
-    mStore = makeStore(true);
+    if (mIsAlone) {
+        setAlone(false);
+        mResolve = makeResolve();
+    }
+    makeStores(true);
     setRounds(seen.exhausted > 0 ? std::min(mRoundCount * 4, kMostRounds) : mRoundCount);
 }
 
@@ -192,7 +232,8 @@ void PixelLists::setRounds(std::uint32_t count) {
 void PixelLists::planRounds(const OitMethod::MeasureFunction& measure) {
     // So many constant media never need more: each enters and leaves once, and moves the others.
     constexpr std::uint64_t kAlwaysOneRound = 100;
-    setRounds(mRoundCount);
+    setRounds(mIsAlone ? 1 : mRoundCount);
+    if (mIsAlone) return;
     if (!mNeeds.varyingDensity && !mNeeds.varyingLight &&
         mMemory.counters().longest <= kAlwaysOneRound)
         return;
@@ -296,8 +337,8 @@ void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
     mMemory.declareReads(frame, pass, Access::ComputeRead);
     pass.reads(inputs.opaqueT, Access::ComputeSample);
     pass.reads(inputs.opaqueColor, Access::ComputeSample);
-    for (const gpu::Buffer* buffer :
-         {&mMemory.offsets(), &mMemory.surfaceOffsets(), &mMemory.progress()})
+    for (const gpu::Buffer* buffer : {&mMemory.offsets(), &mMemory.surfaceOffsets(),
+                                      &mMemory.surfaceCursors(), &mMemory.progress()})
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     for (const gpu::Buffer* buffer : {&mMemory.lists(), &mMemory.countersBuffer()})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);

@@ -67,7 +67,9 @@ class PixelLists {
     std::uint32_t sliceCountFor(std::uint32_t mediaCount) const;
     std::uint64_t unvisitedMedia() const;
     gpu::ComputePipeline makeResolve() const;
-    gpu::ComputePipeline makeStore(bool mayLackRoom) const;
+    void setAlone(bool isAlone);
+    void measureLengths(const OitMethod::MeasureFunction& measure);
+    void makeStores(bool mayLackRoom);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Completes a pass in which each invocation visits the media of its column of pixels.
     void declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band,
@@ -89,6 +91,7 @@ class PixelLists {
     gpu::ComputePipeline mCount, mStore, mResolve;
     gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
     std::uint32_t mSliceCount = 1, mRoundCount = 1;
+    bool mIsAlone = false;  ///< only thin surfaces, in short lists: resolve_surfaces.comp
     gpu::Buffer mStates;
 };
 

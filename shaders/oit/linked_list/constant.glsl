@@ -86,7 +86,7 @@ void leaveMedium(uvec2 entry) {
 void crossTo(Real event, vec3 solidLight) {
     vec3 extinction = state.media.extinctionHi + state.media.extinctionLo;
     vec3 source = state.media.sourceHi + state.media.sourceLo;
-    if (kSurfaces) {
+    if (kSolids) {
         extinction += state.solids.extinctionHi + state.solids.extinctionLo;
         source += (state.solids.sourceHi + state.solids.sourceLo) * solidLight;
     }
@@ -98,7 +98,7 @@ void crossTo(Real event, vec3 solidLight) {
 void walkConstant(Real limit) {
     keepMedia();
     MediumData isotropic = MediumData(vec3(0), kPhaseIsotropic, vec3(0), 0.0, vec3(0));
-    vec3 solidLight = kSurfaces ? scatteredRadiance(isotropic, kNoShares, vec3(0), rayDirection) : vec3(0);
+    vec3 solidLight = kSolids ? scatteredRadiance(isotropic, kNoShares, vec3(0), rayDirection) : vec3(0);
     uvec2 enter = mediumEntry(), surface = surfaceEntry();
     uvec2 leave = state.open < state.medium ? loadEntry(state.open) : kNoEntry;
     while (iterations <= kIterationsPerRound) {

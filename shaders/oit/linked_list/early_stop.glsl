@@ -31,7 +31,7 @@ vec3 brightestLight(float phase) {
 }
 
 float brightestMedium() {
-    float most = kSurfaces ? largestOf(brightestLight(phaseIsotropic())) : 0.0;  // solids
+    float most = kSolids ? largestOf(brightestLight(phaseIsotropic())) : 0.0;  // solids
     for (uint m = 0u; m < frame.mediumCount; ++m) {
         MediumData medium = media[m];
         vec3 source = medium.albedo * brightestLight(phasePeak(medium));
@@ -45,10 +45,7 @@ float brightestMedium() {
 // All surfaces of a list together. `from`, `to`: of its entries.
 float brightestSurfaces(uint from, uint to) {
     float sum = 0.0;
-    for (uint i = from; i < to; ++i) {
-        SurfaceRecord record = loadRecord(loadEntry(i));
-        sum += largestOf(record.radiance) * (record.face == kFaceThin ? record.coverage : 1.0);
-    }
+    for (uint i = from; i < to; ++i) sum += largestOf(loadRecord(loadEntry(i)).surface.radiance);
     iterations += to - from;
     return sum;
 }

@@ -12,7 +12,8 @@ BRUME_STRUCTS_BEGIN
 // slots; slot s owns a run of blocks (ListTile), first entries, then surface records. Pixels are
 // numbered slot by slot, 64 to a tile, row by row. The entries of pixel i of a slot are
 // entries[offsets[i] .. offsets[i + 1]) of the tile's, media first, then surfaces, each sorted; its
-// records are records[surfaceOffsets[i] .. surfaceOffsets[i + 1]) of the tile's.
+// records are records[surfaceOffsets[i] .. surfaceOffsets[i + 1]) of the tile's. Surfaces may have more
+// room than surfaceCursors[pixel] says that there are, and less.
 BRUME_CONST uint kKindShift = 30u;
 BRUME_CONST uint kKindSphere = 0u;   // index into the sorted spheres
 BRUME_CONST uint kKindBox = 1u;      // index into the boxes
@@ -21,7 +22,9 @@ BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 BRUME_CONST uint kBlockBytes = 64u;
 BRUME_CONST uint kEntryBytes = 8u;
-BRUME_CONST uint kRecordBytes = 52u;
+BRUME_CONST uint kGreyRecordBytes = 24u;   // of ThinRecord, where all channels are alike
+BRUME_CONST uint kRecordBytes = 32u;       // of ThinRecord and SurfaceRecord
+BRUME_CONST uint kSolidRecordBytes = 60u;  // of SolidRecord
 BRUME_CONST uint kTileOffsets = 65u;  // of a slot: those of 64 pixels, and the end
 
 struct ListPush {
@@ -70,15 +73,35 @@ BRUME_CONST uint kShiftsPerSlice = 5000u;      // that an invocation of store sp
 BRUME_CONST uint kIterationsPerRound = 8000u;  // after which a pixel waits for the next round
 BRUME_CONST uint kUnsortedBit = 0x80000000u;   // in progress: resolve has to sort the media
 
-// What a triangle leaves in a list.
+// What a triangle leaves in a list: L <- radiance + (1 - loss) L.
 struct SurfaceRecord {
-    vec3 radiance;      // thin: reflected and emitted, not multiplied by the coverage; solid: mirrored
-    float coverage;     // thin; solid: share of light that the face mirrors
-    vec3 transmission;  // thin; solid: extinction, 1/m
-    vec3 scattering;    // solid: 1/m
-    uint face;          // kFaceThin, kFaceFront, kFaceBack
-    uint rank;          // breaks ties between equal distances
-    float distanceLo;   // what rounding has taken from the distance in the entry
+    vec3 radiance;     // that it adds by itself: coverage times reflected and emitted; solid: mirrored
+    vec3 loss;         // thin: coverage (1 - transmission); solid: share of light that the face mirrors
+    uint rank;         // breaks ties between equal distances
+    float distanceLo;  // what rounding has taken from the distance in the entry
+};
+
+// The same in scenes with solids.
+struct SolidRecord {
+    SurfaceRecord surface;
+    vec3 extinction;  // 1/m
+    vec3 scattering;  // 1/m
+    uint face;        // kFaceThin, kFaceFront, kFaceBack
+};
+
+// The same in lists of thin surfaces alone that are short enough for resolve_surfaces.comp: they have
+// no entries.
+struct ThinRecord {
+    float distance;
+    uint rank;
+    vec3 radiance;
+    vec3 loss;
+};
+struct GreyRecord {  // where all channels are alike
+    float distance;
+    uint rank;
+    vec3 radiance;
+    float loss;
 };
 
 BRUME_CONST uint kFaceThin = 0u;
@@ -136,6 +159,8 @@ struct PlacePush {
     uint bandCount;      // that are recorded
     uint blockCapacity;  // of the memory that they share
     uint drawCount;      // surfaces; 0: there are none
+    uint recordBytes;
+    uint hasEntries;     // 0: ThinRecord or GreyRecord alone
 };
 
 // VkDrawIndirectCommand.
@@ -147,6 +172,15 @@ struct DrawArguments {
 // as much as forty operations.
 BRUME_CONST uint kKeptMedia = 8u;
 
+// Specialization constants of the passes that draw surfaces.
+BRUME_CONST uint kListConstantMedia = 0u;     // bool: there are media
+BRUME_CONST uint kListConstantOneBand = 1u;   // bool: all tiles' lists are in memory
+BRUME_CONST uint kListConstantAlone = 2u;     // bool: lists of ThinRecord
+BRUME_CONST uint kListConstantColoured = 3u;  // bool: losses differ between channels
+
+// So long a list may be for resolve_surfaces.comp, which goes through it once for each eight entries.
+BRUME_CONST uint kLongestOfSurfaces = 240u;
+
 // Own bindings.
 BRUME_CONST uint kBindingResult = 8u;  // RGBA32F, written by resolve
 
@@ -154,10 +188,13 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 128);
-static_assert(sizeof(brume::shader::PlacePush) == 88);
+static_assert(sizeof(brume::shader::PlacePush) == 96);
 static_assert(sizeof(brume::shader::ListBand) == 56);
 static_assert(sizeof(brume::shader::ListCounters) == 56);
 static_assert(sizeof(brume::shader::SurfaceRecord) == brume::shader::kRecordBytes);
+static_assert(sizeof(brume::shader::ThinRecord) == brume::shader::kRecordBytes);
+static_assert(sizeof(brume::shader::GreyRecord) == brume::shader::kGreyRecordBytes);
+static_assert(sizeof(brume::shader::SolidRecord) == brume::shader::kSolidRecordBytes);
 static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif
 #endif

@@ -8,6 +8,9 @@
 
 layout(push_constant, scalar) uniform Push { ListPush push; };
 layout(buffer_reference, scalar) buffer RecordArray { SurfaceRecord at[]; };
+layout(buffer_reference, scalar) buffer SolidRecordArray { SolidRecord at[]; };
+layout(buffer_reference, scalar) buffer ThinRecordArray { ThinRecord at[]; };
+layout(buffer_reference, scalar) buffer GreyRecordArray { GreyRecord at[]; };
 layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
 layout(buffer_reference, scalar) readonly buffer BandBlock { ListBand band; };
 layout(buffer_reference, scalar) readonly buffer TileArray { ListTile at[]; };
@@ -29,22 +32,23 @@ bool findSlot(uint bandSlot, out uint slot, out uint tile) {
 }
 
 // False where the pixel's tile has no lists in this band; else its slot, and its place therein.
-bool findPixel(uvec2 pixel, out uint slot, out uint inside) {
+// `isOneBand`: it has all tiles that have any.
+bool findPixel(uvec2 pixel, bool isOneBand, out uint slot, out uint inside) {
     uvec2 tile = pixel / kTileSize;
     inside = pixel.y % kTileSize * kTileSize + pixel.x % kTileSize;
     slot = UintArray(push.tileMap).at[1u + tile.y * frame.tiles.x + tile.x];
+    if (isOneBand) return slot != ~0u;
     ListBand band = BandBlock(push.band).band;
     return slot - band.firstSlot < band.slotCount;
 }
 
-// Both of the slot's tile.
+// Of the slot's tile: its entries, and the address of its records.
 Uvec2Array entriesOf(uint slot) {
     return Uvec2Array(push.lists +
                       uint64_t(TileArray(push.tiles).at[slot].firstBlock) * kBlockBytes);
 }
-RecordArray recordsOf(uint slot) {
-    return RecordArray(push.lists +
-                       uint64_t(TileArray(push.tiles).at[slot].recordBlock) * kBlockBytes);
+uint64_t recordsOf(uint slot) {
+    return push.lists + uint64_t(TileArray(push.tiles).at[slot].recordBlock) * kBlockBytes;
 }
 
 #endif

@@ -82,8 +82,10 @@ void main() {
     uint forRecords = recordBlocks(surfaces);
     uint wanted = entryBlocks(media + surfaces) + forRecords;
     forRecords = shareOf(forRecords, room, wanted);
-    uint entryRoom = min((room - forRecords) * (kBlockBytes / kEntryBytes), media + surfaces);
-    uint surfaceRoom = min(min(forRecords * kBlockBytes / kRecordBytes, entryRoom), surfaces);
+    uint entryRoom = media + surfaces;
+    if (push.hasEntries != 0u)
+        entryRoom = min((room - forRecords) * (kBlockBytes / kEntryBytes), entryRoom);
+    uint surfaceRoom = min(min(forRecords * kBlockBytes / push.recordBytes, entryRoom), surfaces);
     uint mediaRoom = min(entryRoom - surfaceRoom, media);
 
     // Empty tiles at the very end begin where nothing is.

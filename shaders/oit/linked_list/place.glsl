@@ -13,9 +13,11 @@ layout(buffer_reference, scalar) buffer BandArray { ListBand at[]; };
 layout(buffer_reference, scalar) buffer TileArray { ListTile at[]; };
 
 uint divideUp(uint a, uint b) { return (a + b - 1u) / b; }
-uint entryBlocks(uint entries) { return divideUp(entries, kBlockBytes / kEntryBytes); }
+uint entryBlocks(uint entries) {
+    return push.hasEntries != 0u ? divideUp(entries, kBlockBytes / kEntryBytes) : 0u;
+}
 uint recordBlocks(uint records) {
-    return uint((uint64_t(records) * kRecordBytes + (kBlockBytes - 1u)) / kBlockBytes);
+    return uint((uint64_t(records) * push.recordBytes + (kBlockBytes - 1u)) / kBlockBytes);
 }
 
 // A share of `x` as `part` is of `whole`, rounded down.

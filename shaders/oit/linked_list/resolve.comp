@@ -16,6 +16,7 @@ layout(constant_id = 3) const bool kVaryingLight = true;  // point or spot light
 layout(constant_id = 4) const bool kColoured = true;      // extinction differs between channels
 layout(constant_id = 5) const bool kRounds = true;        // more than one: keep states
 layout(constant_id = 6) const uint kMediumCount = kKeptMedia;  // 0: more than kKeptMedia
+layout(constant_id = 7) const bool kSolids = true;        // among the surfaces
 layout(binding = kBindingSpheres, scalar) readonly buffer Spheres { SphereData spheres[]; };
 layout(binding = kBindingBoxes, scalar) readonly buffer Boxes { BoxData boxes[]; };
 layout(binding = kBindingVolumes, scalar) readonly buffer Volumes { VolumeData volumes[]; };
@@ -31,17 +32,21 @@ const uvec2 kNoEntry = uvec2(0x71800000u, 0u);  // at kFar
 RealRay ray;
 vec3 rayDirection;  // rounded
 Uvec2Array entries;   // of the tile
-RecordArray records;  // likewise
+uint64_t records;     // address of the tile's
 uint first;       // of the list
 uint mediaCount;  // its first part
-uint count;       // with the surfaces
+uint count;       // with the surfaces that are stored
 uint iterations = 0u;
 PixelState state;
 Real position;  // of the last event; kept in the state between rounds
 
 uvec2 loadEntry(uint i) { return entries.at[first + i]; }
 void storeEntry(uint i, uvec2 entry) { entries.at[first + i] = entry; }
-SurfaceRecord loadRecord(uvec2 entry) { return records.at[entry.y & kIndexMask]; }
+SolidRecord loadRecord(uvec2 entry) {
+    uint index = entry.y & kIndexMask;
+    if (kSolids) return SolidRecordArray(records).at[index];
+    return SolidRecord(RecordArray(records).at[index], vec3(0), vec3(0), kFaceThin);
+}
 
 uvec2 mediumEntry() { return state.medium < mediaCount ? loadEntry(state.medium) : kNoEntry; }
 uvec2 surfaceEntry() {
@@ -57,7 +62,7 @@ Real2 intersectMedium(uvec2 entry) {
 }
 
 Real surfaceDistance(uvec2 entry) {
-    float lo = entry.x == kNoEntry.x ? 0.0 : loadRecord(entry).distanceLo;
+    float lo = entry.x == kNoEntry.x ? 0.0 : loadRecord(entry).surface.distanceLo;
     return makeReal(uintBitsToFloat(entry.x), lo);
 }
 
@@ -71,11 +76,11 @@ Real surfaceDistance(uvec2 entry) {
 Sums findSolidsAroundEye() {
     Sums solids = noSums();
     for (uint i = mediaCount; i < count; ++i) {
-        SurfaceRecord record = loadRecord(loadEntry(i));
+        SolidRecord record = loadRecord(loadEntry(i));
         if (record.face == kFaceThin) continue;
         float sign = record.face == kFaceBack ? 1.0 : -1.0;
         solids.count += record.face == kFaceBack ? 1 : -1;
-        addExactly(solids.extinctionHi, solids.extinctionLo, sign * record.transmission);
+        addExactly(solids.extinctionHi, solids.extinctionLo, sign * record.extinction);
         addExactly(solids.sourceHi, solids.sourceLo, sign * record.scattering);
     }
     iterations += count - mediaCount;
@@ -91,7 +96,7 @@ void beginState(bool isUnsorted) {
     state.stepLimit = kFar;
     state.path = beginPath();
     state.media = noSums();
-    state.solids = kSurfaces ? findSolidsAroundEye() : noSums();
+    state.solids = kSolids ? findSolidsAroundEye() : noSums();
 }
 
 void advance(Real limit) {
@@ -125,9 +130,12 @@ void main() {
     first = UintArray(push.offsets).at[listIndex];
     count = UintArray(push.offsets).at[listIndex + 1u] - first;
     mediaCount = count;
-    if (kSurfaces)
-        mediaCount -= UintArray(push.surfaceOffsets).at[listIndex + 1u] -
-                      UintArray(push.surfaceOffsets).at[listIndex];
+    if (kSurfaces) {
+        uint room = UintArray(push.surfaceOffsets).at[listIndex + 1u] -
+                    UintArray(push.surfaceOffsets).at[listIndex];
+        mediaCount -= room;
+        count = mediaCount + min(UintArray(push.surfaceCursors).at[index], room);
+    }
     ray = makeRealRay(vec2(pixel) + 0.5);
     rayDirection = vec3(ray.direction);
     Real limit = Real(min(texelFetch(opaqueT, ivec2(pixel), 0).x, kFar));

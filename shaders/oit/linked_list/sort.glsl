@@ -9,7 +9,7 @@
 bool isBefore(uvec2 a, uvec2 b) {
     if (a.x != b.x) return a.x < b.x;
     if ((a.y >> kKindShift) != kKindSurface) return a.y < b.y;
-    return loadRecord(a).rank < loadRecord(b).rank;
+    return loadRecord(a).surface.rank < loadRecord(b).surface.rank;
 }
 
 void sortByInsertion(uint begin, uint end) {

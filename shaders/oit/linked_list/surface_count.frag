@@ -3,17 +3,20 @@
 // exits tell whether the eye is inside.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../common/opaque.glsl"
 #include "../../common/surface.glsl"
 #include "pixels.glsl"
 
-layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+
+// Distances are finer where surfaces are stored: room for some too many.
+const float kMargin = 1e-4;
 
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    bool isSeen =
-        point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
+    bool isSeen = !kOpaque || isSolid(point) ||
+                  point.t < opaqueDistanceAt(ivec2(pixel)) * (1.0 + kMargin);
     uint slot, inside;
-    if (!isSeen || !findPixel(pixel, slot, inside)) return;
+    if (!isSeen || !findPixel(pixel, true, slot, inside)) return;
     atomicAdd(UintArray(push.surfaceOffsets).at[slot * kTileOffsets + inside], 1u);
 }

@@ -3,48 +3,66 @@
 // the pixel, in the order of arrival.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../common/opaque.glsl"
 #include "../../common/surface.glsl"
 #include "../../common/triangle_hash.h"
 #include "pixels.glsl"
 
-layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
+layout(constant_id = kListConstantMedia) const bool kMedia = true;
+layout(constant_id = kListConstantOneBand) const bool kOneBand = false;
+layout(constant_id = kListConstantAlone) const bool kAlone = false;
+layout(constant_id = kListConstantColoured) const bool kColoured = true;
 
 SurfaceRecord makeRecord(SurfacePoint point) {
     SurfaceRecord record;
-    record.distanceLo = point.t > 0.0 ? point.tLo : 0.0;
-    record.rank = triangleHash(push.step, triangle);
-    if (point.material.type == kMaterialSolid) {
+    if (isSolid(point)) {
         Gloss gloss = findGloss(point);
         record.radiance = gloss.radiance;
-        record.coverage = 1.0 - gloss.rest;
-        record.transmission = point.material.extinction;
-        record.scattering = point.material.scattering;
-        record.face = point.isFront ? kFaceFront : kFaceBack;
+        record.loss = vec3(1.0 - gloss.rest);
     } else {
         ThinResponse response = findThinResponse(point);
-        record.radiance = response.radiance;
-        record.coverage = response.coverage;
-        record.transmission = response.transmission;
-        record.scattering = vec3(0);
-        record.face = kFaceThin;
+        record.radiance = response.coverage * response.radiance;
+        record.loss = response.coverage * (1.0 - response.transmission);
     }
+    record.rank = triangleHash(push.step, triangle);
+    record.distanceLo = point.t > 0.0 ? point.tLo : 0.0;
     return record;
+}
+
+void storeRecord(uint slot, uint index, SurfacePoint point) {
+    SurfaceRecord record = makeRecord(point);
+    float distance = max(point.t, 0.0);
+    if (kAlone && !kColoured) {
+        GreyRecordArray(recordsOf(slot)).at[index] =
+            GreyRecord(distance, record.rank, record.radiance, record.loss.x);
+    } else if (kAlone) {
+        ThinRecordArray(recordsOf(slot)).at[index] =
+            ThinRecord(distance, record.rank, record.radiance, record.loss);
+    } else if (kSolids) {
+        uint face = !isSolid(point) ? kFaceThin : point.isFront ? kFaceFront : kFaceBack;
+        SolidRecordArray(recordsOf(slot)).at[index] =
+            SolidRecord(record, point.material.extinction, point.material.scattering, face);
+    } else {
+        RecordArray(recordsOf(slot)).at[index] = record;
+    }
 }
 
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    bool isSeen =
-        point.material.type == kMaterialSolid || point.t < texelFetch(opaqueT, ivec2(pixel), 0).x;
+    bool isSeen = !kOpaque || isSolid(point) ||
+                  point.t < opaqueDistanceAt(ivec2(pixel));
     uint slot, inside;
-    if (!isSeen || !findPixel(pixel, slot, inside)) return;
+    if (!isSeen || !findPixel(pixel, kOneBand, slot, inside)) return;
     uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[slot * 64u + inside], 1u);
-    uint index = slot * kTileOffsets + inside;
-    uint recordIndex = UintArray(push.surfaceOffsets).at[index] + arrival;
-    uint end = UintArray(push.surfaceOffsets).at[index + 1u];
-    if (recordIndex >= end) return;  // no room
-    uint entry = UintArray(push.offsets).at[index + 1u] - (end - recordIndex);
-    recordsOf(slot).at[recordIndex] = makeRecord(point);
+    uint at = slot * kTileOffsets + inside;
+    uint index = UintArray(push.surfaceOffsets).at[at] + arrival;
+    uint end = UintArray(push.surfaceOffsets).at[at + 1u];
+    if (index >= end) return;  // no room
+    storeRecord(slot, index, point);
+    if (kAlone) return;
+    uint entry = index;
+    if (kMedia) entry = UintArray(push.offsets).at[at + 1u] - (end - index);
     entriesOf(slot).at[entry] =
-        uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | recordIndex);
+        uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | index);
 }

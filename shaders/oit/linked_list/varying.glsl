@@ -87,7 +87,7 @@ struct OpenSet {
 };
 
 OpenSet scanOpen() {
-    bool isSolid = kSurfaces && state.solids.sourceHi != vec3(0);
+    bool isSolid = kSolids && state.solids.sourceHi != vec3(0);
     OpenSet set = OpenSet(Real(kFar), 0u, kFar, kNoPhase, isSolid);
     uvec2 first = kNoEntry;
     for (uint i = 0u; i < state.open; ++i) {
@@ -243,8 +243,8 @@ void addLights(inout Nodes nodes, Scatterers scatterers, Step step) {
 Nodes evaluateNodes(float phase, Step step, out float plane) {
     Nodes nodes;
     vec3 solidExtinction =
-        kSurfaces ? state.solids.extinctionHi + state.solids.extinctionLo : vec3(0);
-    vec3 solids = kSurfaces ? state.solids.sourceHi + state.solids.sourceLo : vec3(0);
+        kSolids ? state.solids.extinctionHi + state.solids.extinctionLo : vec3(0);
+    vec3 solids = kSolids ? state.solids.sourceHi + state.solids.sourceLo : vec3(0);
     nodes.share = 0.0;
     [[unroll]] for (uint k = 0u; k < kNodeCount; ++k) {
         nodes.extinction[k] = nodes.source[k] = vec3(0);
@@ -287,7 +287,7 @@ void walkTo(OpenSet set, float last) {
 
 // How far from state.offset light can be taken as smooth.
 float limitByLights(OpenSet set) {
-    bool isLit = set.phase < kNoPhase || (kSurfaces && state.solids.sourceHi != vec3(0));
+    bool isLit = set.phase < kNoPhase || (kSolids && state.solids.sourceHi != vec3(0));
     if (!kVaryingLight || !isLit) return kFar;
     iterations += frame.lightCount;
     return limitStepByLights(vec3(ray.origin), rayDirection, float(position) + state.offset,
