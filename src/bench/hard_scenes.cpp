@@ -1,36 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bench/hard_builder.hpp>
 #include <bench/hard_scenes.hpp>
-#include <bench/scene_builder.hpp>
-#include <bench/scene_parts.hpp>
-#include <bench/volume_scenes.hpp>
 #include <core/error.hpp>
 
 #include <algorithm>
 
 namespace brume::bench {
 namespace {
-
-constexpr int kSize = 48;
-
-/// Seen from z = 4 under a sky of one colour, lit from everywhere alike.
-struct HardBuilder : Builder {
-    explicit HardBuilder(const dvec3& eye = dvec3(0, 0, 4), const dvec3& target = dvec3(0))
-        : Builder(eye, target, 40) {
-        scene.image = {kSize, kSize, 1};
-        scene.background.radiance = dvec3(0.2, 0.3, 0.4);
-        addAmbient(dvec3(0.5));
-    }
-    std::uint32_t addEmitter(double extinction, const dvec3& emission) {
-        const std::uint32_t medium = addMedium(extinction, dvec3(0));
-        scene.media[medium].emission = emission;
-        return medium;
-    }
-    void addBall(std::uint32_t medium, const dvec3& center, double radius, double density = 1) {
-        addSphere(medium, center, radius, density);
-        scene.spheres.back().profile = scene::Profile::Constant;
-    }
-    NamedScene named(const char* name) { return {name, std::move(scene)}; }
-};
 
 /// 1 - exp(-x) in single precision is 19 % off at x = 1e-7; what the medium scatters would be too.
 NamedScene makeThin() {
@@ -213,6 +189,15 @@ NamedScene makeGrazing() {
     return b.named("hard_grazing");
 }
 
+/// The eye in glass, which a wall cuts: the ray leaves what it has never entered, behind the wall.
+NamedScene makeEyeInGlass() {
+    HardBuilder b(dvec3(0, 0, 0.3), dvec3(0, 0, -1));
+    b.addMesh(scene::makeBox(dvec3(4)), b.addGlass(dvec3(0.4), -1), place({0.1, 0.2, 0}));
+    b.addPane(b.addOpaque({0.5, 0.3, 0.2}), {1.5, 3}, {-1, 0, -1}, 20);
+    b.addBall(b.addMedium(1.5, dvec3(0.9, 0.6, 0.3)), {0.4, 0, -1}, 0.5);
+    return b.named("hard_eye_in_glass");
+}
+
 /// Glass in smoke, smoke in glass: surfaces and intervals share one order.
 NamedScene makeNested() {
     HardBuilder b;
@@ -227,16 +212,25 @@ NamedScene makeNested() {
 /// Nearly all light goes straight on: the phase function is 4e4 there and must not overflow.
 NamedScene makeForwardPeak() {
     HardBuilder b;
-    scene::Light sun;
-    sun.type = scene::LightType::Directional;
-    sun.direction = dvec3(0, 0, 1);
-    sun.color = dvec3(1e-5);
-    b.scene.lights.push_back(sun);
+    b.addSun(dvec3(0, 0, 1), dvec3(1e-5));
     const std::uint32_t fog = b.addMedium(1, dvec3(0.9));
     b.scene.media[fog].phase = scene::PhaseType::HenyeyGreenstein;
     b.scene.media[fog].g = 0.999;
     b.addBall(fog, dvec3(0), 1);
     return b.named("hard_forward_peak");
+}
+
+/// Nearly all light comes straight back, and a phase function that is zero nowhere.
+NamedScene makeBackwardPeak() {
+    HardBuilder b;
+    b.addSun(dvec3(0, 0, -1), dvec3(1e-5));
+    const std::uint32_t fog = b.addMedium(1, dvec3(0.9)), air = b.addMedium(1, dvec3(0.3, 0.5, 0.9));
+    b.scene.media[fog].phase = scene::PhaseType::HenyeyGreenstein;
+    b.scene.media[fog].g = -0.999;
+    b.scene.media[air].phase = scene::PhaseType::Rayleigh;
+    b.addBall(fog, {-0.7, 0, 0}, 0.6);
+    b.addBall(air, {0.7, 0, 0}, 0.6);
+    return b.named("hard_backward_peak");
 }
 
 /// Light that the medium makes itself, where it is all but transparent.
@@ -245,46 +239,6 @@ NamedScene makeEmission() {
     b.addBall(b.addEmitter(1e-6, {0.2, 0.1, 0.05}), {-0.4, 0, 0}, 0.7);
     b.addBall(b.addEmitter(0, {0.05, 0.1, 0.2}), {0.4, 0, 0}, 0.7);
     return b.named("hard_emission");
-}
-
-float ballDensity(const ivec3& voxel) {
-    const auto r2 = static_cast<float>(voxel.x * voxel.x + voxel.y * voxel.y + voxel.z * voxel.z);
-    return std::max(1 - r2 / 36, 0.0f);
-}
-
-NamedScene makeVolumeScene(const char* name, const dmat4& worldFromIndex,
-                           float (*density)(const ivec3& voxel)) {
-    HardBuilder b;
-    scene::Volume volume;
-    volume.medium = b.addMedium(2, dvec3(0.9, 0.6, 0.3));
-    NamedScene named = b.named(name);
-    named.volumes.emplace_back(volume, makeBrickGrid(worldFromIndex, 1, density));
-    return named;
-}
-
-/// A map that mirrors and shears: optical depths scale with true lengths, front and back stay.
-NamedScene makeShearedVolume() {
-    dmat4 map = glm::scale(glm::rotate(dmat4(1), 0.5, dvec3(0, 1, 0)), dvec3(-0.14, 0.1, 0.12));
-    map[1][0] += 0.05;
-    return makeVolumeScene("hard_sheared_volume", map, &ballDensity);
-}
-
-/// A sheet one voxel thick, on edge and aslant: long steps miss it.
-NamedScene makeSheetVolume() {
-    const dmat4 map =
-        glm::scale(glm::rotate(dmat4(1), 1.3, dvec3(0.1, 1, 0.2)), dvec3(0.14));
-    return makeVolumeScene("hard_sheet_volume", map, [](const ivec3& v) {
-        return v.x == 0 && std::abs(v.y) < 6 && std::abs(v.z) < 6 ? 4.0f : 0.0f;
-    });
-}
-
-/// Voxels over twelve decades.
-NamedScene makeDynamicRange() {
-    return makeVolumeScene("hard_dynamic_range", glm::scale(dmat4(1), dvec3(0.14)),
-                           [](const ivec3& v) {
-                               if (ballDensity(v) == 0) return 0.0f;
-                               return static_cast<float>(std::pow(10.0, v.x));
-                           });
 }
 
 const oit::MethodInfo& findMethod(const std::string& word) {
@@ -313,12 +267,18 @@ const std::vector<HardCase> kCases = {
     {"hard_order", "red before blue beside blue before red", {W::Order, W::Surfaces}, 1e-5, &makeOrder},
     {"hard_many_layers", "64 layers of all hues", {W::Order, W::ManyLayers, W::Surfaces}, 1e-5, &makeManyLayers},
     {"hard_grazing", "rays along the faces of a solid", {W::Colour}, 1e-5, &makeGrazing},
+    {"hard_eye_in_glass", "the eye in glass that a wall cuts", {W::Overlap, W::Order}, 1e-5, &makeEyeInGlass},
     {"hard_nested", "smoke in glass in smoke, and a pane", {W::Order, W::Overlap, W::Surfaces, W::Colour}, 1e-5, &makeNested},
     {"hard_forward_peak", "phase function with g = 0.999", {}, 1e-5, &makeForwardPeak},
+    {"hard_backward_peak", "phase functions with g = -0.999, and Rayleigh's", {}, 1e-5, &makeBackwardPeak},
     {"hard_emission", "emission without extinction", {W::Emission}, 1e-5, &makeEmission},
     {"hard_sheared_volume", "voxels mirrored and sheared", {W::Profile}, 1e-5, &makeShearedVolume},
     {"hard_sheet_volume", "a sheet one voxel thick", {W::Profile}, 1e-5, &makeSheetVolume},
     {"hard_dynamic_range", "voxels over twelve decades", {W::Profile, W::Thick}, 1e-4, &makeDynamicRange},
+    {"hard_empty_volume", "a volume without a voxel", {}, 1e-5, &makeEmptyVolume},
+    {"hard_huge_tile", "voxels in a tile of 4096 cubed", {W::Profile}, 1e-5, &makeHugeTile},
+    {"hard_far_voxels", "voxels two million apart", {W::Profile}, 1e-5, &makeFarVoxels},
+    {"hard_tiny_voxels", "voxels of 20 micrometres", {W::Profile}, 1e-5, &makeTinyVolume},
 };
 
 }  // namespace

@@ -126,9 +126,10 @@ std::map<std::string, std::uint64_t> collectSeeds(const scene::Scene& scene,
     for (std::size_t i = 0; i < scene.effects.size(); ++i)
         seeds[fmt::format("effect {}", i)] = scene.effects[i].seed;
     if (options.method == "stochastic") seeds["pattern"] = 0;
+    scene::SettingsReader reader(options.settings, "naming the seeds");
     for (const char* key : {"pattern", "shuffle"})
-        if (const auto found = options.settings.find(key); found != options.settings.end())
-            seeds[key] = std::stoull(found->second);
+        if (options.settings.contains(key))
+            seeds[key] = static_cast<std::uint64_t>(reader.integer(key, 0, 0, 1ll << 62));
     return seeds;
 }
 
@@ -153,7 +154,8 @@ Row describeContestant(const Contestant& contestant, const std::string& sceneNam
     row.method = contestant.word;
     row.suite = options.suite;
     row.failure = contestant.failure;
-    row.seeds = collectSeeds(scene, contestant.options);
+    // Settings of what could not be set up may be no numbers.
+    if (row.failure.empty()) row.seeds = collectSeeds(scene, contestant.options);
     row.command = makeCommand(row, options);
     return row;
 }

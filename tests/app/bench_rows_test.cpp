@@ -6,6 +6,7 @@
 #include <app/command_line.hpp>
 #include <bench/method_word.hpp>
 #include <bench/scenes.hpp>
+#include <core/error.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -126,6 +127,19 @@ TEST(BenchRows, CommandOfEveryStoreAndTick_AsksForIt) {
             EXPECT_EQ(makePlans(parseBenchCommand(kept.words.at(i))).at(0).kind,
                       bench::PlanKind::Simulation);
     EXPECT_GT(count, 10);
+}
+
+TEST(BenchGpu, OnlyProcessors_AreRefused) {
+    for (const char* type : {"discrete", "integrated", "virtual", "other"})
+        EXPECT_NO_THROW(requireGpu({.name = "a device", .type = type})) << type;
+    try {
+        requireGpu({.name = "a software device", .type = "cpu"});
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input);
+        EXPECT_NE(std::string(error.what()).find("a software device is a processor"), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(BenchRows, OtherWords_AreNoBenchCommand) {

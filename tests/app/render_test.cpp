@@ -262,6 +262,38 @@ TEST_F(RenderCommandLine, Bench_CompareSaysWhatIsWorse) {
     EXPECT_EQ(runBrume({"bench", "--compare", path("scene.json"), path("a.json")}).exitCode, 2);
 }
 
+TEST_F(RenderCommandLine, BenchGpu_WritesOneFileWithoutAWindowOrRefuses) {
+    std::vector<std::string> words = {"bench",     "--scenes", "layers_2_16x16", "--methods", "unordered",
+                                      "--repeats", "1",        "--json",         path("a.json")};
+    ASSERT_EQ(runBrume(words).exitCode, 0);
+    const Json machine = readJson("a.json")["machine"];
+    words.back() = path("b.json");
+    words.push_back("--gpu");
+    const Outcome outcome = runBrume(words, {.environment = "DISPLAY=:none"});
+    if (machine["type"] == "cpu") {
+        EXPECT_EQ(outcome.exitCode, 2);
+        EXPECT_TRUE(isOneErrorLine(outcome.err)) << outcome.err;
+        EXPECT_NE(outcome.err.find("--gpu"), std::string::npos) << outcome.err;
+        EXPECT_FALSE(fs::exists(path("b.json")));
+        return;
+    }
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json run = readJson("b.json");
+    for (const char* key : {"device", "type", "driver"}) EXPECT_EQ(run["machine"][key], machine[key]);
+    ASSERT_EQ(run["rows"].size(), 1u);
+    EXPECT_GT(run["rows"][0]["timeMs"]["median"], 0);
+}
+
+TEST_F(RenderCommandLine, BenchSeeds_ThatAreNoNumbersAreOneLine) {
+    for (const char* method : {"stochastic:pattern=abc", "unordered:shuffle=99999999999999999999"}) {
+        const Outcome outcome = runBrume({"bench", "--scenes", "layers_2_16x16", "--methods", method,
+                                          "--repeats", "1"});
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_TRUE(isOneErrorLine(outcome.err)) << outcome.err;
+        EXPECT_NE(outcome.err.find("must be an integer"), std::string::npos) << outcome.err;
+    }
+}
+
 TEST_F(RenderCommandLine, RibbonsAndBillboards_AreThoseOfTheReference) {
     std::ofstream(mFolder / "ribbon.json") << R"({ "version": 1, "capacity": 2000, "tickRate": 60,
       "surface": { "type": "ribbon", "material": "trail" }, "emitters": [ { "lifetime": 0.5 } ],

@@ -136,19 +136,6 @@ bench::Results measure(const BenchArguments& arguments, gpu::Device& device, con
     return results;
 }
 
-/// Software devices measure something else: refused by name, with what else there is.
-void requireGpu(const gpu::DeviceInfo& device) {
-    if (device.type != "cpu") return;
-    std::string others;
-    for (const gpu::DeviceInfo& info : gpu::listDevices())
-        others += fmt::format("{}{} ({}{})", others.empty() ? "" : ", ", info.name, info.type,
-                              info.rejections.empty() ? "" : ", unusable: " + info.rejections[0]);
-    throw inputError(kDoing, "--gpu",
-                     fmt::format("{} is a processor, allowed are devices of the types discrete, "
-                                 "integrated and virtual; this machine has {}",
-                                 device.name, others));
-}
-
 }  // namespace
 
 std::vector<bench::Plan> makePlans(const BenchArguments& arguments) {
@@ -173,6 +160,18 @@ std::vector<bench::Plan> makePlans(const BenchArguments& arguments) {
         plans.push_back(plan);
     }
     return plans;
+}
+
+void requireGpu(const gpu::DeviceInfo& device) {
+    if (device.type != "cpu") return;
+    std::string others;
+    for (const gpu::DeviceInfo& info : gpu::listDevices())
+        others += fmt::format("{}{} ({}{})", others.empty() ? "" : ", ", info.name, info.type,
+                              info.rejections.empty() ? "" : ", unusable: " + info.rejections[0]);
+    throw inputError(kDoing, "--gpu",
+                     fmt::format("{} is a processor, allowed are devices of the types discrete, "
+                                 "integrated and virtual; this machine has {}",
+                                 device.name, others));
 }
 
 void runBench(const BenchArguments& given, const Log& log) {

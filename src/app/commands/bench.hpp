@@ -37,6 +37,10 @@ struct BenchArguments {
 /// What a run without suites measures. Throws an input Error.
 std::vector<bench::Plan> makePlans(const BenchArguments& arguments);
 
+/// Throws an input Error that names what else there is, if the device is a processor: software devices
+/// measure something else.
+void requireGpu(const gpu::DeviceInfo& device);
+
 void runBench(const BenchArguments& arguments, const Log& log);
 
 }  // namespace brume::app
