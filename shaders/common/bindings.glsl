@@ -28,7 +28,8 @@ bool hasParallelRays() {
 LightData lightAt(uint i) {
     if (i >= kUniformLights) return lights[i];
     LightData light = firstLights[i];
-    light.type = lights[i].type;  // see above: shaders branch on it
+    light.type = lights[i].type;  // see above: shaders branch on these
+    light.shadow = lights[i].shadow;
     return light;
 }
 #else
