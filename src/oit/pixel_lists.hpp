@@ -67,7 +67,9 @@ class PixelLists {
     std::uint32_t sliceCountFor(std::uint32_t mediaCount) const;
     std::uint64_t unvisitedMedia() const;
     gpu::ComputePipeline makeResolve() const;
+    /// Thin surfaces alone, in lists that are known to be short: other records, another resolve.
     void setAlone(bool isAlone);
+    /// One frame that counts, to know what memory the lists take.
     void measureLengths(const OitMethod::MeasureFunction& measure);
     void makeStores(bool mayLackRoom);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
@@ -91,7 +93,7 @@ class PixelLists {
     gpu::ComputePipeline mCount, mStore, mResolve;
     gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
     std::uint32_t mSliceCount = 1, mRoundCount = 1;
-    bool mIsAlone = false;  ///< only thin surfaces, in short lists: resolve_surfaces.comp
+    bool mIsAlone = false;  ///< setAlone()
     gpu::Buffer mStates;
 };
 
