@@ -95,7 +95,12 @@ PFN_vkVoidFunction VKAPI_CALL getInstanceProc(VkInstance instance, const char* n
 struct Outcome {
     std::vector<BrumeResult> errors;
     std::vector<vec4> image;
+    int latePipelines = 0;  // made after brumePrepare()
 };
+
+int countPipelines() {
+    return gFaults.calls["vkCreateComputePipelines"] + gFaults.calls["vkCreateGraphicsPipelines"];
+}
 
 Outcome runAll(TestHost& host, const char* method) {
     Outcome run;
@@ -124,6 +129,7 @@ Outcome runAll(TestHost& host, const char* method) {
     host.draw({0.2f, 0.3f, 0.4f}, 0);
     const BrumeView view = host.view();
     insist([&] { return brumePrepare(scene, &view); });
+    run.latePipelines = -countPipelines();
     auto step = init<BrumeStep>();
     step.seconds = 0.3;
     bool isStepped = false;
@@ -141,6 +147,7 @@ Outcome runAll(TestHost& host, const char* method) {
         }
         return result;
     });
+    run.latePipelines += countPipelines();
     run.image = host.read();
     brumeDestroyContext(context);
     return run;
@@ -180,6 +187,7 @@ TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {
         gFaults = {};
         const Outcome good = runAll(host, method);
         EXPECT_TRUE(good.errors.empty());
+        EXPECT_EQ(good.latePipelines, 0) << "brumePrepare() makes all of them";
         const std::map<std::string, int> calls = gFaults.calls;
         EXPECT_EQ(calls.size(), 14u) << "functions that the library calls";
         const std::map<VkResult, BrumeResult> expected = {
