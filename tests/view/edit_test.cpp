@@ -172,7 +172,7 @@ TEST(Document_ChangedEffect, IsReloadedAndBadOnesAreNot) {
 // Ribbons of sub-emitters have the material that they ask for, as in `brume render`.
 TEST(Document_SubEmitters, KeepTheirMaterialsAndMedia) {
     const ScratchFolder folder;
-    folder.write("trail.effect.json", R"({ "version": 1, "capacity": 100,
+    folder.write("trail.effect.json", R"({ "version": 1, "capacity": 100, "tickRate": 30,
       "surface": { "type": "ribbon", "material": "pane" }, "emitters": [ { "lifetime": 0.3 } ],
       "overLife": { "radius": [[0, 0.04], [1, 0.01]] } })");
     folder.write("sparks.effect.json",
