@@ -171,6 +171,9 @@ struct FaultCase {
     int callsPerFunction;
 };
 
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.method; }
+
 class HostFaults : public ::testing::TestWithParam<FaultCase> {};
 
 TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {

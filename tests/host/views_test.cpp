@@ -17,6 +17,9 @@ struct DepthCase {
     float minDepth, maxDepth;
 };
 
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const DepthCase& c, std::ostream* out) { *out << c.name; }
+
 class HostDepths : public HostTest, public ::testing::WithParamInterface<DepthCase> {};
 
 double depthAt(const BrumeView& view, double distance) {
@@ -112,6 +115,9 @@ struct PartCase {
     const char* name;
     bool isOrthographic, isTurned;
 };
+
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const PartCase& c, std::ostream* out) { *out << c.name; }
 
 class HostParts : public HostTest, public ::testing::WithParamInterface<PartCase> {};
 
