@@ -11,8 +11,9 @@
 layout(binding = kBindingLights, scalar) readonly buffer LightBuffer { LightData lights[]; };
 
 // Passes that draw meshes (BRUME_SURFACE_PASS) run their shader for millions of fragments that all
-// see the same frame and lights: blocks with constant places are read once, buffers by each. Their
-// loops over lights have a constant length, so that nothing is compiled anew for another frame.
+// see the same frame and lights: blocks with constant places are read once, buffers by each. No
+// loop and no branch may depend on a block alone: Mesa 22 compiles the shader anew for each draw
+// then, with the block's values, and never frees it.
 #ifdef BRUME_SURFACE_PASS
 layout(binding = kBindingFrame, scalar) uniform FrameBlock { FrameData frame; };
 layout(binding = kBindingFirstLights, scalar) uniform FirstLightsBlock {
@@ -20,13 +21,20 @@ layout(binding = kBindingFirstLights, scalar) uniform FirstLightsBlock {
 };
 layout(constant_id = kConstantLightCount) const uint kLightCount = kUnknownCount;
 uint lightCount() { return kLightCount == kUnknownCount ? frame.lightCount : kLightCount; }
+layout(constant_id = kConstantParallelRays) const uint kParallelRays = kUnknownCount;
+bool hasParallelRays() {
+    return kParallelRays == kUnknownCount ? frame.orthographic != 0u : kParallelRays != 0u;
+}
 LightData lightAt(uint i) {
-    if (i < kUniformLights) return firstLights[i];
-    return lights[i];
+    if (i >= kUniformLights) return lights[i];
+    LightData light = firstLights[i];
+    light.type = lights[i].type;  // see above: shaders branch on it
+    return light;
 }
 #else
 layout(binding = kBindingFrame, scalar) readonly buffer FrameBlock { FrameData frame; };
 uint lightCount() { return frame.lightCount; }
+bool hasParallelRays() { return frame.orthographic != 0u; }
 LightData lightAt(uint i) { return lights[i]; }
 #endif
 layout(binding = kBindingMedia, scalar) readonly buffer MediumBuffer { MediumData media[]; };

@@ -66,11 +66,11 @@ vec3 cameraCoordinates(vec3 p) {
 }
 
 Bounds sphereBounds(vec3 center, float radius) {
-    return sphereBoundsInView(cameraCoordinates(center), radius, frame.orthographic != 0u);
+    return sphereBoundsInView(cameraCoordinates(center), radius, hasParallelRays());
 }
 
 Bounds boxBounds(BoxData box, VolumeData volume) {
-    bool isOrthographic = frame.orthographic != 0u;
+    bool isOrthographic = hasParallelRays();
     CornerBounds corners = beginCorners();
     for (uint c = 0u; c < 8u; ++c)
         addCorner(corners, cameraCoordinates(boxCorner(box, volume, c)), isOrthographic);

@@ -23,8 +23,8 @@ Ray makeRay(vec2 position) {
                      vec2(frame.centerX, frame.centerY);
     precise vec3 offset = s.x * frame.right + s.y * frame.up;
     Ray ray;
-    ray.origin = frame.orthographic != 0u ? offset : vec3(0);
-    ray.direction = frame.orthographic != 0u ? frame.forward : normalize(frame.forward + offset);
+    ray.origin = hasParallelRays() ? offset : vec3(0);
+    ray.direction = hasParallelRays() ? frame.forward : normalize(frame.forward + offset);
     return ray;
 }
 
@@ -39,9 +39,9 @@ RealRay makeRealRay(vec2 position) {
     Real3 forward = makeReal(frame.forward, frame.forwardLo);
     Real3 towards = forward + offset;
     RealRay ray;
-    ray.origin = frame.orthographic != 0u ? offset : Real3(0);
+    ray.origin = hasParallelRays() ? offset : Real3(0);
     ray.direction =
-        frame.orthographic != 0u ? forward : towards / sqrt(dot(towards, towards));
+        hasParallelRays() ? forward : towards / sqrt(dot(towards, towards));
     return ray;
 }
 
@@ -49,8 +49,8 @@ RealRay makeRealRay(vec2 position) {
 vec4 clipFromRelative(vec3 position) {
     vec3 view =
         vec3(dot(position, frame.right), dot(position, frame.up), dot(position, frame.forward));
-    view.xy -= vec2(frame.centerX, frame.centerY) * (frame.orthographic != 0u ? 1.0 : view.z);
-    if (frame.orthographic != 0u)
+    view.xy -= vec2(frame.centerX, frame.centerY) * (hasParallelRays() ? 1.0 : view.z);
+    if (hasParallelRays())
         return vec4(view.x / frame.extentX, -view.y / frame.extentY,
                     (frame.far - view.z) / (frame.far - frame.near), 1.0);
     return vec4(view.x / frame.extentX, -view.y / frame.extentY, frame.near, view.z);

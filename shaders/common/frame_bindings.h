@@ -22,8 +22,10 @@ BRUME_CONST uint kBindingFirstLights = 31u;  // of passes that draw meshes: Ligh
 // The buffer of lights has room for so many at least.
 BRUME_CONST uint kUniformLights = 16u;
 
-// Specialization constant of passes that draw meshes: how many lights there are.
+// Specialization constants of passes that draw meshes: how many lights there are, and whether the
+// camera is orthographic.
 BRUME_CONST uint kConstantLightCount = 68u;
+BRUME_CONST uint kConstantParallelRays = 70u;
 BRUME_CONST uint kUnknownCount = 0xffffffffu;  // the frame says
 
 BRUME_STRUCTS_END

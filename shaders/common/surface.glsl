@@ -49,9 +49,14 @@ SurfacePoint findSurfacePoint() {
     point.position = vec3(position);
     point.positionLo = vec3(position - Real3(point.position));
     point.material = material;
+    // Shaders branch on these: no compiler knows that nothing is added (see bindings.glsl).
+    uint nothing = floatBitsToUint(gl_FragCoord.x) >> 31;
+    point.material.type += nothing;
+    point.material.roughness += float(nothing);
+    point.material.alphaCutoff += float(nothing);
     point.color = vec4(1);
     if (kTextured) point.color = textureLod(colorTexture, uv, 0.0);
-    if (point.color.a * material.coverage < material.alphaCutoff) discard;
+    if (point.color.a * material.coverage < point.material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
     point.normal = dot(n, direction) > 0.0 ? -n : n;
     return point;

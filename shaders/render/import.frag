@@ -23,9 +23,9 @@ void main() {
     bool isNothing = d == push.farDepth || divisor == 0.0 || !(depth < 1e30);
     // A ray that is not the camera's axis is longer than its depth.
     vec3 direction = makeRay(gl_FragCoord.xy).direction;
-    float cosine = frame.orthographic != 0u ? 1.0 : dot(direction, frame.forward);
+    float cosine = hasParallelRays() ? 1.0 : dot(direction, frame.forward);
     opaqueT = isNothing ? kNothing : max(depth, 0.0) / cosine;
-    float reversed = frame.orthographic != 0u ? (frame.far - depth) / (frame.far - frame.near)
+    float reversed = hasParallelRays() ? (frame.far - depth) / (frame.far - frame.near)
                                               : frame.near / max(depth, frame.near);
     gl_FragDepth = isNothing ? 0.0 : clamp(reversed, 0.0, 1.0);
 }

@@ -46,6 +46,7 @@ std::vector<gpu::NumberedConstant> lightingConstants(const Needs& needs) {
             {shader::kConstantShadowing, needs.shadowing},
             {shader::kConstantGlossy, needs.glossy},
             {shader::kConstantLightCount, needs.lights},
+            {shader::kConstantParallelRays, needs.orthographic},
             {shader::kConstantTextured, needs.textured}};
 }
 

@@ -197,6 +197,13 @@ void MediaBins::recordSortLists(gpu::Commands& commands, const Inputs& inputs,
     commands.dispatch((mTileCount + 63) / 64);
 }
 
+// Where media are many, few have tiles in each of many slices.
+std::uint32_t MediaBins::countSlices(std::uint32_t mediaCount) const {
+    constexpr std::uint32_t kMany = 1u << 16;
+    const std::uint32_t least = mTileCount / shader::kBinMostTiles + 1;
+    return std::max(least, mediaCount < kMany ? 8u : 2u);
+}
+
 void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                           const gpu::ComputePipeline& pipeline) const {
     const bool isScatter = &pipeline == &set.binScatter;
@@ -208,9 +215,11 @@ void MediaBins::recordBin(gpu::Commands& commands, const Inputs& inputs, const S
                                                                : set.wanted.deviceAddress(),
                                            .cursors = set.cursors.deviceAddress(),
                                            .pairs = set.pairs.deviceAddress(),
+                                           .spheres = mSortedSpheres.deviceAddress(),
                                            .limits = mLimits.deviceAddress(),
-                                           .count = set.count});
-    commands.dispatch((set.count + 63) / 64, shader::kBinRowSlices);
+                                           .count = set.count,
+                                           .rowSlices = countSlices(set.count)});
+    commands.dispatch((set.count + 63) / 64, countSlices(set.count));
 }
 
 void MediaBins::recordCount(gpu::Commands& commands, const Inputs& inputs, const Set& set) const {

@@ -90,6 +90,7 @@ class MediaBins {
     void recordBoxes(gpu::Commands& commands, const Inputs& inputs) const;
     void recordSortLists(gpu::Commands& commands, const Inputs& inputs, const Set& set) const;
     void recordFit(gpu::Commands& commands, const Set& set) const;
+    std::uint32_t countSlices(std::uint32_t mediaCount) const;
     void recordBin(gpu::Commands& commands, const Inputs& inputs, const Set& set,
                    const gpu::ComputePipeline& pipeline) const;
 

@@ -4,8 +4,18 @@
 #include <bench/scenes.hpp>
 #include <render/render_fixture.hpp>
 
+#include <fstream>
+
 namespace brume::test {
 namespace {
+
+/// Memory of this process that is in use, 0 where the system does not tell.
+std::uint64_t residentBytes() {
+    std::ifstream file("/proc/self/statm");
+    std::uint64_t pages = 0, resident = 0;
+    file >> pages >> resident;
+    return 4096 * resident;
+}
 
 class TransparencyScenes : public RenderTest {
   protected:
@@ -59,6 +69,22 @@ TEST_F(TransparencyScenes, FrostedPanes_DifferFromClearOnesByTheirCollimation) {
     EXPECT_GT(change[4], 0);
     EXPECT_GT(change[3], 1.5 * change[1]);
     EXPECT_GT(change[2], change[1]);
+}
+
+/// Drivers may compile a shader anew for each draw, and keep what they made.
+TEST_F(TransparencyScenes, Frames_LeaveNoMemoryBehind) {
+    constexpr std::uint64_t kMost = 24ull << 20;
+    if (residentBytes() == 0) GTEST_SKIP() << "the system does not tell its memory";
+    for (const char* scene : {"mixed", "engine", "frosted_panes"})
+        for (const char* method : {"linked_list", "weighted"}) {
+            render::PreparedScene prepared = makeScene(scene);
+            prepared.scene.image = {16, 9, 1};
+            render::Renderer renderer(device(), prepared, {.method = method, .settings = {}}, log());
+            for (int frame = 0; frame < 3; ++frame) renderer.renderFrame();
+            const std::uint64_t before = residentBytes();
+            for (int frame = 0; frame < 12; ++frame) renderer.renderFrame();
+            EXPECT_LT(residentBytes(), before + kMost) << scene << " by " << method;
+        }
 }
 
 }  // namespace

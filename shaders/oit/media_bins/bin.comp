@@ -5,11 +5,13 @@
 #include "../../common/bindings.glsl"
 #include "../../gpu/address.glsl"
 #include "bins.h"
+#include "rect.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kScatter = false;
 layout(constant_id = 1) const uint kKeys = kKeysNothing;
 layout(push_constant, scalar) uniform Push { BinPush push; };
+layout(buffer_reference, scalar) readonly buffer SphereArray { SphereData at[]; };
 
 // No ray meets the medium before this distance.
 float smallestDistance(uint i) {
@@ -24,16 +26,21 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
     uvec2 rect = Uvec2Array(push.rects).at[i];
-    if (rect.x > rect.y && rect == uvec2(1u, 0u)) return;
+    if (rect == kNoRect) return;
     uvec2 first = uvec2(rect.x & 0xffffu, rect.x >> 16),
           last = uvec2(rect.y & 0xffffu, rect.y >> 16);
     float nearest = smallestDistance(i);
-    uint start = first.y + (gl_GlobalInvocationID.y + kBinRowSlices - first.y % kBinRowSlices) %
-                               kBinRowSlices;
-    for (uint y = start; y <= last.y; y += kBinRowSlices)
+    const bool kAreSpheres = kKeys == kKeysOfSpheres;
+    SphereData sphere;
+    if (kAreSpheres) sphere = SphereArray(push.spheres).at[i];
+    vec3 view = kAreSpheres ? cameraCoordinates(sphere.center) : vec3(0);
+    uint slices = push.rowSlices;
+    uint start = first.y + (gl_GlobalInvocationID.y + slices - first.y % slices) % slices;
+    for (uint y = start; y <= last.y; y += slices)
         for (uint x = first.x; x <= last.x; ++x) {
             uint tile = y * frame.tiles.x + x;
             if (nearest > FloatArray(push.limits).at[tile]) continue;
+            if (kAreSpheres && isBesideTile(view, sphere.radius, uvec2(x, y))) continue;
             if (kScatter) {
                 uint slot = UintArray(push.counts).at[tile] +
                             atomicAdd(UintArray(push.cursors).at[tile], 1u);

@@ -14,8 +14,10 @@ struct BinPush {
                        // that fit the memory, uint[tiles + 1]
     uint64_t cursors;  // uint[tiles]: how many are scattered already
     uint64_t pairs;    // uint[]: indices of the media of each tile
+    uint64_t spheres;  // SphereData[count], if those are binned
     uint64_t limits;   // float[tiles]: m, what begins behind is hidden by something opaque
     uint count;
+    uint rowSlices;
 };
 
 // What the lists of a frame want, whether there is memory for it or not.
@@ -32,9 +34,11 @@ struct FitPush {
     uint capacity;    // pairs
 };
 
-// One invocation bins one medium to the tile rows y with y % kBinRowSlices == its slice: bounds the
-// loop of a medium that covers the whole screen.
-BRUME_CONST uint kBinRowSlices = 8u;
+// One invocation bins one medium to the tile rows y with y % rowSlices == its slice. Devices that
+// hand out invocations in order, such as llvmpipe, scatter in order then, and sorting is cheap.
+// A loop of one that covers the whole screen must stay short: some devices silently end all loops
+// of an invocation after 65 535 iterations.
+BRUME_CONST uint kBinMostTiles = 30000u;
 
 // What the sorted keys say of how near a medium can be, to bin.comp.
 BRUME_CONST uint kKeysNothing = 0u;

@@ -21,7 +21,7 @@ void main() {
     vec3 nearest = volume.worldFromIndex * (clamp(eye, vec3(0), box.size) - eye);
     vec3 middle = box.corner + volume.worldFromIndex * (0.5 * box.size);
     // Before the eye of parallel rays the distance is negative; keys sort like it.
-    float distance = frame.orthographic != 0u ? dot(middle, frame.forward) : length(nearest);
+    float distance = hasParallelRays() ? dot(middle, frame.forward) : length(nearest);
     uint key = floatBitsToUint(distance);
     UintArray(push.keys).at[i] = (key & 0x80000000u) != 0u ? ~key : key | 0x80000000u;
     UintArray(push.values).at[i] = i;

@@ -19,7 +19,7 @@ void main() {
     uint source = kByIdentity ? i : UintArray(push.values).at[i];
     SphereData sphere = spheres[source];
     float distance =
-        frame.orthographic != 0u ? dot(sphere.center, frame.forward) : length(sphere.center);
+        hasParallelRays() ? dot(sphere.center, frame.forward) : length(sphere.center);
     bool valid = sphere.radius > 0.0 && sphere.density > 0.0;
     uint key = valid ? floatBitsToUint(max(distance - sphere.radius, 0.0)) : 0xffffffffu;
     UintArray(push.keys).at[i] = kByIdentity ? sphere.id : key;

@@ -22,7 +22,7 @@ void main() {
         BoxData box = boxes[i - frame.sphereCount];
         center = box.corner + volumes[box.volume].worldFromIndex * (0.5 * box.size);
     }
-    float depth = frame.orthographic != 0u ? max(dot(center, frame.forward), 0.0) : length(center);
+    float depth = hasParallelRays() ? max(dot(center, frame.forward), 0.0) : length(center);
     UintArray(push.keys).at[i] = ~floatBitsToUint(depth);
     UintArray(push.order).at[i] = i;
 }

@@ -17,7 +17,7 @@ float focalPixels() { return float(frame.size.x) / (2.0 * frame.extentX); }
 float blurOf(SurfacePoint point, float coverage) {
     float gap = max(opaqueDistance() - point.t, 0.0);
     float reach = 1.0 - 1.0 / (1.0 + gap / kBlurReach);
-    float distance = frame.orthographic != 0u ? 1.0 : max(point.t, 1e-6);
+    float distance = hasParallelRays() ? 1.0 : max(point.t, 1e-6);
     float deviation =
         focalPixels() * kBlurWidth * (1.0 - point.material.collimation) * coverage * reach / distance;
     return min(deviation * deviation, kMaxBlur * kMaxBlur);
@@ -33,7 +33,7 @@ vec2 refractionOf(SurfacePoint point, Ray ray) {
     float along = max(dot(direction, frame.forward), 1e-3);
     vec3 seen = point.position + direction * (kBehind / along);
     vec3 view = vec3(dot(seen, frame.right), -dot(seen, frame.up), dot(seen, frame.forward));
-    vec2 plane = frame.orthographic != 0u ? view.xy : view.xy / max(view.z, 1e-6);
+    vec2 plane = hasParallelRays() ? view.xy : view.xy / max(view.z, 1e-6);
     plane -= vec2(frame.centerX, -frame.centerY);
     vec2 pixel = (plane / vec2(frame.extentX, frame.extentY) * 0.5 + 0.5) * vec2(frame.size);
     return clamp(pixel - gl_FragCoord.xy, vec2(-512.0), vec2(512.0));
