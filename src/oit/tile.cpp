@@ -73,7 +73,9 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
       mClassesRead(
           mPasses.makeBuffer("classes_read", 4ull * mTileCount, gpu::MemoryKind::Readback)),
       mCountersRead(mPasses.makeBuffer("counters_read", sizeof(shader::TileCounters),
-                                       gpu::MemoryKind::Readback)) {}
+                                       gpu::MemoryKind::Readback)) {
+    std::ranges::fill(mCountersRead.mappedAs<std::uint32_t>(), 0u);  // until a frame has finished
+}
 
 void Tile::reserve() {
     mPasses.bins().reserve(std::uint64_t{mTileCount} * kReservedPairsPerTile);

@@ -193,6 +193,10 @@ TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {
         EXPECT_EQ(good.latePipelines, 0) << "brumePrepare() makes all of them";
         const std::map<std::string, int> calls = gFaults.calls;
         EXPECT_EQ(calls.size(), 14u) << "functions that the library calls";
+        gFaults = {};
+        host.frames = 0;
+        runAll(host, method);
+        EXPECT_EQ(gFaults.calls, calls) << "they are the same each time";
         const std::map<VkResult, BrumeResult> expected = {
             {VK_ERROR_OUT_OF_DEVICE_MEMORY, BRUME_ERROR_OUT_OF_DEVICE_MEMORY},
             {VK_ERROR_OUT_OF_HOST_MEMORY, BRUME_ERROR_OUT_OF_HOST_MEMORY},
