@@ -73,9 +73,7 @@ Tile::Tile(gpu::Device& device, const Inputs& inputs, const Settings& settings)
       mClassesRead(
           mPasses.makeBuffer("classes_read", 4ull * mTileCount, gpu::MemoryKind::Readback)),
       mCountersRead(mPasses.makeBuffer("counters_read", sizeof(shader::TileCounters),
-                                       gpu::MemoryKind::Readback)) {
-    std::ranges::fill(mCountersRead.mappedAs<std::uint32_t>(), 0u);  // until a frame has finished
-}
+                                       gpu::MemoryKind::Readback)) {}
 
 void Tile::reserve() {
     mPasses.bins().reserve(std::uint64_t{mTileCount} * kReservedPairsPerTile);
@@ -90,7 +88,6 @@ void Tile::reserve() {
                     TileList(*mDevice, "oit.tile.tiles", mTileCount, group->threadsPerTile);
         mGroupCountsRead = mPasses.makeBuffer("group_counts_read", 4 * mPasses.all().size(),
                                               gpu::MemoryKind::Readback);
-        std::ranges::fill(mGroupCountsRead.mappedAs<std::uint32_t>(), 0u);
         makeLists();
         mLists->setAnyTiles(mTileCount);
     }
