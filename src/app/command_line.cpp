@@ -124,6 +124,9 @@ void addBench(CLI::App& app, Invocation& invocation) {
     command->add_option("--repeats", a.repeats, "Frames to measure per row (default 20, quick suites 5)")
         ->check(CLI::Range(1, 100000));
     command->add_flag("!--no-error", a.withError, "Do not compare with the reference");
+    command->add_option("--error-every", a.errorEvery, "Compare only the middle one of each N x N pixels, where the reference takes long")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     command->add_option("--set", a.settings, "Setting of the methods that know it, key=value")
         ->allow_extra_args(false);
     command->add_option("--json", a.json, "Write the rows to this file");

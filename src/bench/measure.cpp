@@ -142,6 +142,7 @@ std::string makeCommand(const Row& row, const MeasureOptions& options) {
         if (!own.contains(key)) command += " --set " + quoteForShell(key + "=" + value);
     if (options.truth) command += " --truth " + quoteForShell(options.truthName);
     command += fmt::format(" --repeats {}", options.repeats);
+    if (options.errorEvery > 1) command += fmt::format(" --error-every {}", options.errorEvery);
     return command + (options.withError ? "" : " --no-error");
 }
 
@@ -157,17 +158,28 @@ Row describeContestant(const Contestant& contestant, const std::string& sceneNam
     return row;
 }
 
+/// A value per pixel of an image, at every nth pixel.
+template <typename Value>
+std::vector<Value> pickPixels(const std::vector<Value>& values, ivec2 size, int every) {
+    std::vector<Value> picked;
+    for (int y = 0; y * every < size.y; ++y)
+        for (int x = 0; x * every < size.x; ++x)
+            picked.push_back(values[static_cast<std::size_t>(pickMiddle(y, every, size.y)) * size.x +
+                                    pickMiddle(x, every, size.x)]);
+    return picked;
+}
+
 /// All contestants simulate the same particles, so anyone's will do.
 reference::Result renderCommonReference(const render::PreparedScene& scene,
                                         const std::vector<Contestant>& contestants,
-                                        const ProgressCallback& progress) {
+                                        const MeasureOptions& options) {
     render::EffectContents effects;
     for (const Contestant& contestant : contestants)
         if (contestant.renderer) {
             effects = contestant.renderer->readEffects();
             break;
         }
-    return renderReference(scene, effects, progress);
+    return renderReference(scene, effects, options.progress, options.errorEvery);
 }
 
 /// Rows of one scene, once its frames are rendered.
@@ -180,7 +192,7 @@ void summariseRace(gpu::Device& device, const Entrant& entrant,
     reference::Result exact;
     if (options.withError && anyFrame)
         exact = renderCommonReference(options.truth ? *options.truth : entrant.scene, contestants,
-                                      options.progress);
+                                      options);
     const auto reference = std::make_shared<const Image>(exact.image);
     for (const Contestant& contestant : contestants) {
         Measurement& m = measurements.emplace_back();
@@ -195,7 +207,7 @@ void summariseRace(gpu::Device& device, const Entrant& entrant,
                 1e3 * options.layerCount * m.row.width * m.row.height / m.row.time.median;
         if (options.keepImages) m.image = contestant.samples.last().image;
         if (!options.withError) continue;
-        Comparison comparison = compareWithReference(contestant.samples.last(), exact);
+        Comparison comparison = compareWithReference(contestant.samples.last(), exact, options.errorEvery);
         m.row.error = comparison.metrics;
         if (!options.keepImages) continue;
         m.absolute = std::move(comparison.absolute);
@@ -270,20 +282,26 @@ void overrideShadows(scene::Scene& scene, const std::string& shadow) {
 
 reference::Result renderReference(const render::PreparedScene& scene,
                                   const render::EffectContents& effects,
-                                  const ProgressCallback& progress) {
+                                  const ProgressCallback& progress, int every) {
     std::vector<scene::MediumSphere> spheres = scene.spheres;
     spheres.insert(spheres.end(), effects.spheres.begin(), effects.spheres.end());
     scene::Scene all = scene.scene;
     all.meshes.insert(all.meshes.end(), effects.surfaces.begin(), effects.surfaces.end());
     reference::Options options;
     options.progress = progress;
+    options.every = every;
     return reference::render({all, scene.volumes, spheres}, options);
 }
 
-Comparison compareWithReference(const render::Result& frame, const reference::Result& exact) {
-    if (frame.triangles.empty()) return compareImages(frame.image, exact.image);
-    return compareImages(frame.image, exact.image,
-                         findDisagreement(frame.triangles, exact.triangles));
+Comparison compareWithReference(const render::Result& frame, const reference::Result& exact,
+                                int every) {
+    const ivec2 size(frame.image.width, frame.image.height);
+    Image image(exact.image.width, exact.image.height);
+    image.pixels = pickPixels(frame.image.pixels, size, every);
+    if (frame.triangles.empty()) return compareImages(image, exact.image);
+    return compareImages(
+        image, exact.image,
+        findDisagreement(pickPixels(frame.triangles, size, every), exact.triangles));
 }
 
 std::vector<Measurement> measureScenes(gpu::Device& device, const std::deque<Entrant>& entrants,

@@ -52,14 +52,15 @@ std::string describeShadows(const scene::Scene& scene);
 /// Makes every light that casts shadows use that store ("none": no shadows).
 void overrideShadows(scene::Scene& scene, const std::string& shadow);
 
-/// The exact image of the scene with these particles.
+/// The exact image of the scene with these particles, at `every` nth pixel (reference::Options).
 reference::Result renderReference(const render::PreparedScene& scene,
                                   const render::EffectContents& effects,
-                                  const ProgressCallback& progress = {});
+                                  const ProgressCallback& progress = {}, int every = 1);
 
-/// Compares a frame with the exact image; where the two see different triangles (if the frame has
-/// hashes) the pixel is excluded.
-Comparison compareWithReference(const render::Result& frame, const reference::Result& exact);
+/// Compares a frame with the exact image of every nth of its pixels; where the two see different
+/// triangles (if the frame has hashes) the pixel is excluded.
+Comparison compareWithReference(const render::Result& frame, const reference::Result& exact,
+                                int every = 1);
 
 struct MeasureOptions {
     std::vector<std::string> methods;  ///< names of oit::listMethods(), each perhaps with settings
@@ -68,6 +69,7 @@ struct MeasureOptions {
     int repeats = 20;
     int warmups = 1;
     bool withError = true;  ///< compare with the reference
+    int errorEvery = 1;     ///< at the middle one of each n x n pixels
     /// What errors are against, with its name for the rows; null: the scene itself.
     std::shared_ptr<const render::PreparedScene> truth;
     std::string truthName;

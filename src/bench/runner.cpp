@@ -130,7 +130,9 @@ class Runner {
         options.settings = plan.settings;
         options.repeats = repeats(plan);
         options.withError = plan.withError && mOptions.withError;
-        options.keepImages = mOptions.keepImages;
+        options.errorEvery = mOptions.errorEvery;
+        // Pictures of the error have as many pixels as those of the result.
+        options.keepImages = mOptions.keepImages && options.errorEvery == 1;
         options.suite = mSuite;
         options.shadow = plan.shadow;
         options.layerCount = named.layerCount;

@@ -12,6 +12,7 @@ namespace brume::bench {
 struct RunOptions {
     int repeats = 20;  ///< where a plan does not say
     bool withError = true;
+    int errorEvery = 1;       ///< errors at the middle one of each n x n pixels
     bool keepImages = false;  ///< small ones, for the report
     /// Scenes by the names in the plans; several for families such as `layers`.
     std::function<std::vector<NamedScene>(const std::string&)> findScenes = [](const auto& name) {

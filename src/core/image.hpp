@@ -4,6 +4,7 @@
 
 #include <core/math.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,10 @@ std::uint64_t computeHash(const Image& image);
 
 /// The sRGB transfer curve, decoding: [0, 1] to [0, 1] (IEC 61966-2-1).
 double linearFromSrgb(double x);
+
+/// Of n x n blocks, counted from the first pixel, the middle pixel: where block i lies along a side
+/// of `size` pixels.
+inline int pickMiddle(int i, int n, int size) { return std::min(i * n + n / 2, size - 1); }
 
 /// Mean of n x n blocks (box filter in double); the size must be a multiple of n.
 Image downsample(const Image& image, int n);

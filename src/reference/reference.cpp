@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kTileSize = 16;
 
+int divideUp(int a, int b) { return (a + b - 1) / b; }
+
 /// One frame being rendered: threads take tiles until none is left. A pixel depends on nothing but
 /// itself, so neither their number nor their order shows.
 class FrameJob {
@@ -25,9 +27,11 @@ class FrameJob {
           mFrame(scene::makeCameraFrame(input.scene.camera, mSettings.width * mSettings.supersample,
                                         mSettings.height * mSettings.supersample)),
           mOptions(options),
-          mTilesAcross((mSettings.width + kTileSize - 1) / kTileSize),
-          mTileCount(mTilesAcross * ((mSettings.height + kTileSize - 1) / kTileSize)) {
-        mResult.image = Image(mSettings.width, mSettings.height);
+          mWidth(divideUp(mSettings.width, options.every)),
+          mHeight(divideUp(mSettings.height, options.every)),
+          mTilesAcross(divideUp(mWidth, kTileSize)),
+          mTileCount(mTilesAcross * divideUp(mHeight, kTileSize)) {
+        mResult.image = Image(mWidth, mHeight);
         mResult.triangles.resize(mResult.image.pixels.size());
     }
 
@@ -59,13 +63,14 @@ class FrameJob {
 
     void renderTile(int tile, RayScratch& scratch) {
         const int x0 = tile % mTilesAcross * kTileSize, y0 = tile / mTilesAcross * kTileSize;
-        for (int y = y0; y < std::min(y0 + kTileSize, mSettings.height); ++y)
-            for (int x = x0; x < std::min(x0 + kTileSize, mSettings.width); ++x)
-                renderPixel(x, y, scratch);
+        for (int y = y0; y < std::min(y0 + kTileSize, mHeight); ++y)
+            for (int x = x0; x < std::min(x0 + kTileSize, mWidth); ++x) renderPixel(x, y, scratch);
     }
 
-    void renderPixel(int x, int y, RayScratch& scratch) {
+    void renderPixel(int column, int row, RayScratch& scratch) {
         const int n = mSettings.supersample;
+        const int x = pickMiddle(column, mOptions.every, mSettings.width);
+        const int y = pickMiddle(row, mOptions.every, mSettings.height);
         dvec3 sum(0);
         std::uint32_t triangles = 0;
         for (int j = 0; j < n; ++j)
@@ -77,14 +82,15 @@ class FrameJob {
                 sum += sample.radiance;
                 triangles += sample.triangles;
             }
-        mResult.image.at(x, y) = vec3(sum / double(n * n));
-        mResult.triangles[static_cast<std::size_t>(y) * mSettings.width + x] = triangles;
+        mResult.image.at(column, row) = vec3(sum / double(n * n));
+        mResult.triangles[static_cast<std::size_t>(row) * mWidth + column] = triangles;
     }
 
     const scene::ImageSettings mSettings;
     const Tracer mTracer;
     const scene::CameraFrame mFrame;
     const Options& mOptions;
+    const int mWidth, mHeight;  // of the image
     const int mTilesAcross, mTileCount;
     Result mResult;
     std::atomic<int> mNextTile = 0;
@@ -99,6 +105,8 @@ Result render(const Input& input, const Options& options) {
     if (image.width < 1 || image.height < 1 || image.supersample < 1)
         throw inputError("rendering the reference", "image",
                          "width, height and supersample must be at least 1");
+    if (options.every < 1)
+        throw inputError("rendering the reference", "every", "must be at least 1");
     return FrameJob(input, options).run();
 }
 

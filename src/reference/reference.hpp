@@ -23,6 +23,8 @@ struct Input {
 struct Options {
     bool shadows = true;  ///< false: every light ignores its `shadow` (what a method without shadow
                           ///< stores shows)
+    /// n: of each n x n pixels only the middle one, so that images are smaller by n (rounded up).
+    int every = 1;
     std::function<void(double fraction)>
         progress;  ///< called now and then from one thread; may be empty
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What must not change the image: splitting, order, units, halving a density; and bounds that
 // always hold.
+#include <core/error.hpp>
 #include <reference/test_scene.hpp>
 
 #include <gtest/gtest.h>
@@ -170,6 +171,23 @@ TEST(ReferenceRender, SameInput_GivesTheSameBitsAndTriangles) {
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_EQ(a.triangles[0], 0u);
     EXPECT_NE(a.triangles[15 * 40 + 20], 0u);
+}
+
+TEST(ReferenceRender, EveryThirdPixel_IsThatOfTheWholeImage) {
+    TestScene s = makeCrowd(20, 4);
+    s.addPane(s.addMaterial({}), 3, 0.5);
+    s.scene.camera.position = dvec3(0, 0, -4), s.scene.camera.target = dvec3(0);
+    s.scene.image = {16, 11, 1};
+    const Result whole = render(s.input()), few = render(s.input(), {.every = 3});
+    ASSERT_EQ(ivec2(few.image.width, few.image.height), ivec2(6, 4));
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 6; ++x) {
+            const int wholeX = std::min(3 * x + 1, 15), wholeY = std::min(3 * y + 1, 10);
+            EXPECT_EQ(few.image.at(x, y), whole.image.at(wholeX, wholeY));
+            EXPECT_EQ(few.triangles[6 * y + x], whole.triangles[16 * wholeY + wholeX]);
+        }
+    const Options none{.every = 0};
+    EXPECT_THROW(render(s.input(), none), Error);
 }
 
 TEST(ReferenceRender, TrianglesNearerThanNear_AreNotSeen) {

@@ -17,7 +17,9 @@ void main() {
     if (i >= push.count) return;
     SphereData sphere = spheres[UintArray(push.values).at[i]];
     sorted[i] = sphere;
-    bool valid = sphere.radius > 0.0 && sphere.density > 0.0;
+    MediumData medium = media[sphere.medium];
+    bool isSeen = any(greaterThan(medium.extinction + medium.emission, vec3(0)));
+    bool valid = sphere.radius > 0.0 && sphere.density > 0.0 && isSeen;
     Uvec2Array(push.rects).at[i] =
         valid ? tileRect(sphereBounds(sphere.center, sphere.radius)) : kNoRect;
 }

@@ -117,6 +117,7 @@ bench::Results measure(const BenchArguments& arguments, gpu::Device& device, con
     bench::RunOptions options;
     options.repeats = arguments.repeats;
     options.withError = arguments.withError;
+    options.errorEvery = arguments.errorEvery;
     options.keepImages = !arguments.report.empty();
     options.findScenes = [&](const std::string& name) { return findScenes(name, log); };
     Progress progress("measuring");

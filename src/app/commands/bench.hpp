@@ -23,6 +23,7 @@ struct BenchArguments {
     std::uint32_t points = 2000;         ///< of --shadows
     std::uint32_t particles = 1'000'000;  ///< of --scenes simulate
     bool withError = true;
+    int errorEvery = 1;
     std::vector<std::string> settings;  ///< "key=value"
     std::filesystem::path json;
     std::filesystem::path report;  ///< folder for table and images; empty: none
