@@ -76,11 +76,11 @@ vec3 scatteredRadiance(MediumData medium, uint shares, vec3 position, vec3 rayDi
 
 // Lambert reflection with albedo 1; `normal` unit, towards the viewer; `positionLo`: what rounding has
 // taken from `position`.
-vec3 diffuseRadiance(vec3 position, vec3 positionLo, vec3 normal) {
+vec3 diffuseRadiance(vec3 position, vec3 positionLo, vec3 normal, bool isTranslucent) {
     vec3 sum = frame.ambient;
     for (uint i = 0u; i < lightCount(); ++i) {
         vec3 travel;
-        vec3 lit = position + normal * shadowOffset(i, position);
+        vec3 lit = position + normal * shadowOffset(i, position, isTranslucent);
         LightData light = lightAt(i);
         vec3 irradiance = irradianceBeside(light, fineOffset(light, position, positionLo), travel) *
                           transmittance(i, lit);

@@ -77,7 +77,9 @@ vec3 emittedRadiance(SurfacePoint point) {
 
 // Lambert reflection and emission.
 vec3 sentRadiance(SurfacePoint point, vec3 albedo) {
-    return albedo * point.color.rgb * diffuseRadiance(point.position, point.positionLo, point.normal) +
+    return albedo * point.color.rgb *
+               diffuseRadiance(point.position, point.positionLo, point.normal,
+                               point.material.type != kMaterialOpaque) +
            emittedRadiance(point);
 }
 
@@ -102,7 +104,7 @@ Gloss findGloss(SurfacePoint point) {
     // Lights do not reach the inner side of a solid.
     for (uint i = 0u; i < lightCount() && (isPane || point.isFront); ++i) {
         vec3 travel;
-        vec3 lit = point.position + point.normal * shadowOffset(i, point.position);
+        vec3 lit = point.position + point.normal * shadowOffset(i, point.position, true);
         LightData light = lightAt(i);
         vec3 offset = fineOffset(light, point.position, point.positionLo);
         vec3 irradiance = irradianceBeside(light, offset, travel) * transmittance(i, lit);

@@ -12,6 +12,9 @@ layout(constant_id = kConstantShadowStores) const uint kShadowStores = 127u;
 // width of three texels of a face of 256.
 const float kStepPerDistance = 0.02;
 
+// Texels along the normal per texel that a look-up reaches; the diagonal takes sqrt 2.
+const float kOffsetPerReach = 1.5;
+
 #include "exact/transmittance.glsl"
 #include "fourier/transmittance.glsl"
 #include "opaque/transmittance.glsl"
@@ -81,16 +84,21 @@ float shadowStep(uint index, vec3 position, vec3 direction) {
 }
 
 // How far from a surface, along its normal, its light must be asked for: what rounding and the
-// map's texels call the surface may lie so far away.
-float shadowOffset(uint index, vec3 position) {
+// maps' texels call the surface may lie so far away. `isTranslucent`: it is in the store itself.
+float shadowOffset(uint index, vec3 position, bool isTranslucent) {
     if (kShadowStores == 0u || lights[index].shadow == 0ul) return 0.0;
     ShadowMap map = ShadowMapRef(lights[index].shadow).map;
     float rounding = 4e-6 * max(max(abs(position.x), abs(position.y)), abs(position.z)) +
                      1e-6 * (map.end - map.begin);
-    if ((kShadowStores & kStoreOpaque) == 0u || map.opaque == 0ul) return rounding;
-    map = ShadowMapRef(map.opaque).map;
-    return rounding +
-           1.5 * float(map.filterRadius + 1u) * texelSize(map, length(position - map.origin));
+    float texels = 0.0;
+    if (isTranslucent && (map.store & (kStoreExact | kStoreOpaque)) == 0u)
+        texels = kOffsetPerReach * texelSize(map, length(position - map.origin));
+    if ((kShadowStores & kStoreOpaque) != 0u && map.opaque != 0ul) {
+        map = ShadowMapRef(map.opaque).map;
+        texels = max(texels, kOffsetPerReach * float(map.filterRadius + 1u) *
+                                 texelSize(map, length(position - map.origin)));
+    }
+    return rounding + texels;
 }
 
 #endif

@@ -5,6 +5,8 @@
 #include <core/assert.hpp>
 #include <gpu/buffer.hpp>
 
+#include <cstring>
+
 namespace brume::gpu {
 namespace {
 
@@ -51,6 +53,8 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : mName(desc.name), mByte
         device.check(
             vk.vkMapMemory(device.handle(), allocation.memory, 0, VK_WHOLE_SIZE, 0, &mMapped),
             "mapping buffer", mName);
+    // Counters are asked for before the first frame has finished, too.
+    if (desc.memory == MemoryKind::Readback) std::memset(mMapped, 0, mBytes);
     VkBufferDeviceAddressInfo address{};
     address.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
     address.buffer = mHandle;

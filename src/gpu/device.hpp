@@ -127,7 +127,7 @@ struct Limits {
 enum class MemoryKind {
     Device,   ///< fastest for the device, not mapped
     Upload,   ///< mapped: the host writes, the device reads
-    Readback  ///< mapped and cached: the device writes, the host reads
+    Readback  ///< mapped and cached: the device writes, the host reads; buffers begin as zeros
 };
 
 /// A living object with memory, for byte counts.

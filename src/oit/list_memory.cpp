@@ -33,7 +33,6 @@ ListMemory::ListMemory(gpu::Device& device, const std::string& name, const Needs
     mCounters = makeBuffer("counters", sizeof(shader::ListCounters));
     mCountersRead =
         makeBuffer("counters_read", sizeof(shader::ListCounters), gpu::MemoryKind::Readback);
-    std::ranges::fill(mCountersRead.mappedAs<std::uint32_t>(), 0u);  // until a frame has finished
 }
 
 gpu::ComputePipeline ListMemory::makePipeline(const char* stage,

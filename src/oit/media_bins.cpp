@@ -100,7 +100,6 @@ MediaBins::MediaBins(gpu::Device& device, const std::string& name, const Inputs&
                    {.name = name + ".bin_totals_read",
                     .bytes = kTotalsBytes,
                     .memory = gpu::MemoryKind::Readback}};
-    std::ranges::fill(mTotalsRead.mappedAs<std::uint32_t>(), 0u);  // until a frame has finished
     mSpheres = makeSet(device, name + ".sphere_bins", inputs.sphereCount, shader::kKeysOfSpheres);
     mSpheres.keys = mKeys.deviceAddress();
     // Of parallel rays, boxes are sorted by their middles.

@@ -88,7 +88,6 @@ void Tile::reserve() {
                     TileList(*mDevice, "oit.tile.tiles", mTileCount, group->threadsPerTile);
         mGroupCountsRead = mPasses.makeBuffer("group_counts_read", 4 * mPasses.all().size(),
                                               gpu::MemoryKind::Readback);
-        std::ranges::fill(mGroupCountsRead.mappedAs<std::uint32_t>(), 0u);
         makeLists();
         mLists->setAnyTiles(mTileCount);
     }

@@ -16,11 +16,13 @@
 namespace brume::view {
 namespace {
 
-std::uint32_t findMedium(const scene::Scene& scene, const std::string& name,
-                         std::uint32_t fallback) {
-    for (std::size_t i = 0; i < scene.media.size(); ++i)
-        if (scene.media[i].name == name) return static_cast<std::uint32_t>(i);
-    return fallback;
+template <typename Named>
+std::uint32_t findNamed(const std::vector<Named>& list, const std::string& name, const char* what,
+                        const std::filesystem::path& file) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].name == name) return static_cast<std::uint32_t>(i);
+    throw inputError("showing an effect", file.string(),
+                     fmt::format("it wants the {} '{}', which the scene lacks", what, name));
 }
 
 /// The entries of one instance with another effect.
@@ -32,15 +34,18 @@ std::vector<scene::EffectInstance> makeEntries(const scene::Scene& scene,
         scene::EffectInstance& entry = entries.emplace_back(root);
         entry.effect = *population;
         entry.isSubEmitter = entries.size() > 1;
-        entry.medium = findMedium(scene, population->medium, root.medium);
+        if (population->surface)
+            entry.material =
+                findNamed(scene.materials, population->surface->material, "material", root.file);
+        else
+            entry.medium = findNamed(scene.media, population->medium, "medium", root.file);
     }
     return entries;
 }
 
 }  // namespace
 
-Document::Document(std::filesystem::path file, const Log& log)
-    : mFile(std::move(file)), mLog(log) {
+Document::Document(std::filesystem::path file, const Log& log) : mFile(std::move(file)), mLog(log) {
     load({});
 }
 
@@ -54,14 +59,14 @@ void Document::load(const std::vector<std::filesystem::path>& changed) {
     for (const scene::EffectInstance& instance : scene.effects)
         if (!instance.file.empty() && files.insert(instance.file).second) {
             // What the user has changed and not saved stays.
-            const auto known = std::find_if(
-                mEffects.begin(), mEffects.end(), [&](const auto& edit) {
+            const auto known =
+                std::find_if(mEffects.begin(), mEffects.end(), [&](const auto& edit) {
                     return edit->file() == instance.file && edit->isChanged() &&
                            !isChanged(instance.file);
                 });
-            effects.push_back(known != mEffects.end() ? std::make_unique<EffectEdit>(**known)
-                                                      : std::make_unique<EffectEdit>(
-                                                            instance.file));
+            effects.push_back(known != mEffects.end()
+                                  ? std::make_unique<EffectEdit>(**known)
+                                  : std::make_unique<EffectEdit>(instance.file));
         }
     std::swap(mEffects, effects);
     try {
@@ -93,7 +98,9 @@ void Document::rebuildEffects(scene::Scene& scene) const {
         particles::compileEffect(effect);
         for (scene::EffectInstance& entry : makeEntries(scene, root, effect)) {
             const std::uint64_t text = std::hash<std::string>()(edit->text());
-            entry.key = (text ^ mTouches * 0xd6e8feb86659fd93ull ^ (entries.size() + 1) * 0x9e3779b97f4a7c15ull) | 1;
+            entry.key = (text ^ mTouches * 0xd6e8feb86659fd93ull ^
+                         (entries.size() + 1) * 0x9e3779b97f4a7c15ull) |
+                        1;
             entries.push_back(std::move(entry));
         }
     }

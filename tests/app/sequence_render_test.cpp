@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <core/image_io.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -83,6 +84,47 @@ TEST_F(RenderSequence, Shards_GiveTheFramesOfOneRun) {
     }
     EXPECT_EQ(read("states").size(), 6u);  // three frames, two effects
     EXPECT_EQ(read("parts"), read("whole"));
+}
+
+// Stands in for Slurm: runs a job at once, or the tasks of an array one after the other.
+const char* const kSbatch = R"(#!/bin/sh
+set -eu
+tasks=
+id=1
+while :; do
+    case $1 in
+    --array=1-*) tasks=$(seq "${1#--array=1-}") ;;
+    --dependency=afterok:1) id=2 ;;
+    --*) ;;
+    *) break ;;
+    esac
+    shift
+done
+export SLURM_JOB_ID=$id
+[ -n "$tasks" ] || sh "$@" >/dev/null
+for SLURM_ARRAY_TASK_ID in $tasks; do
+    export SLURM_ARRAY_TASK_ID
+    sh "$@" >/dev/null
+done
+echo $id
+)";
+
+TEST_F(RenderSequence, SlurmScript_RendersAllFramesInParts) {
+    std::ofstream(mFolder / "sbatch") << kSbatch;
+    fs::permissions(mFolder / "sbatch", fs::perms::owner_all);
+    const std::string command =
+        "PATH=" + mFolder.string() +
+        ":$PATH BRUME=" BRUME_EXECUTABLE " frames=12:15 parts=2 scene=" + path("scene.json") +
+        " output=" + path("out/f.###.exr") +
+        " " BRUME_SOURCE_DIR "/scripts/render.sbatch --method sorted >" + path("ids");
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream ids(mFolder / "ids");
+    int id = 0;
+    EXPECT_TRUE(ids >> id);
+    EXPECT_EQ(id, 2) << "of the array, which waits for the first job";
+    for (const char* frame : {"f.012.exr", "f.013.exr", "f.014.exr", "f.015.exr"})
+        EXPECT_TRUE(fs::exists(mFolder / "out" / frame)) << frame;
+    EXPECT_EQ(read("out/checkpoints").size(), 4u);  // two parts, two effects
 }
 
 TEST_F(RenderSequence, FolderOfTheFrames_IsMadeOrNamed) {

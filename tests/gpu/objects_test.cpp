@@ -51,6 +51,19 @@ TEST_F(ObjectsTest, Buffer_Mapped_IsSeenByTheDevice) {
     EXPECT_THROW(unmapped.mappedAs<float>(), AssertionError);
 }
 
+// Whatever was in that memory before: counters are read before a frame has written them.
+TEST_F(ObjectsTest, Buffer_Readback_BeginsAsZeros) {
+    for (int i = 0; i < 4; ++i) {
+        gpu::Buffer buffer(device(), {.name = "test.readback",
+                                      .bytes = 64,
+                                      .memory = gpu::MemoryKind::Readback});
+        for (std::uint32_t& word : buffer.mappedAs<std::uint32_t>()) {
+            EXPECT_EQ(word, 0u);
+            word = 0xabababab;
+        }
+    }
+}
+
 TEST_F(ObjectsTest, Buffer_TooLarge_FailsWithNameAndSize) {
     const std::string message = messageOf(
         [&] { gpu::Buffer(device(), {.name = "far too large", .bytes = std::uint64_t{1} << 50}); });

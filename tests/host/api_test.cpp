@@ -30,6 +30,13 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace brume::test {
 namespace {
 
+template <typename Function>
+Function deviceFunction(const BrumeContextCreateInfo& info, const char* name) {
+    const auto get = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        info.getInstanceProcAddr(info.instance, "vkGetDeviceProcAddr"));
+    return reinterpret_cast<Function>(get(info.device, name));
+}
+
 struct MemoryCount {
     int allocated = 0, freed = 0;
     const VkAllocationCallbacks* callbacks = nullptr;
@@ -37,12 +44,10 @@ struct MemoryCount {
     PFN_vkFreeMemory free = nullptr;
     VkDevice device = VK_NULL_HANDLE;
 
-    void hook(BrumeContextCreateInfo& info, gpu::Device& owner) {
-        device = owner.handle();
-        const auto get = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-            info.getInstanceProcAddr(owner.instance(), "vkGetDeviceProcAddr"));
-        allocate = reinterpret_cast<PFN_vkAllocateMemory>(get(device, "vkAllocateMemory"));
-        free = reinterpret_cast<PFN_vkFreeMemory>(get(device, "vkFreeMemory"));
+    void hook(BrumeContextCreateInfo& info) {
+        device = info.device;
+        allocate = deviceFunction<PFN_vkAllocateMemory>(info, "vkAllocateMemory");
+        free = deviceFunction<PFN_vkFreeMemory>(info, "vkFreeMemory");
         info.memoryUser = this;
         info.allocateMemory = [](void* user, const VkMemoryAllocateInfo* what,
                                  VkDeviceMemory* memory) {
@@ -85,7 +90,7 @@ TEST_P(HostMemoryOf, SteadyFrame_AllocatesNothing) {
     TestHost host(*device, submitter, {48, 32});
     auto info = host.contextInfo();
     MemoryCount memory;
-    memory.hook(info, *device);
+    memory.hook(info);
     const Context context(info);
     Scene scene = makeScene(context, GetParam());
     scene.prepare(host.view());
@@ -138,7 +143,7 @@ struct CallbackCount {
 TEST_F(HostTest, HundredContexts_LeaveNothingBehind) {
     auto info = host().contextInfo();
     MemoryCount memory;
-    memory.hook(info, device());
+    memory.hook(info);
     CallbackCount driver;
     info.allocator = &driver.callbacks;
     for (int i = 0; i < 100; ++i) {
@@ -169,6 +174,50 @@ TEST_F(HostTest, MemoryBudget_IsKept) {
               BRUME_ERROR_OUT_OF_DEVICE_MEMORY);
     EXPECT_NE(std::string(brumeLastError()).find("budget"), std::string::npos) << brumeLastError();
     EXPECT_LE(scene.counters().contextBytes, info.memoryBudgetBytes);
+}
+
+TEST_F(HostTest, LogOfTheHost_IsTold) {
+    std::vector<std::string> warnings;
+    auto info = host().contextInfo();
+    info.logUser = &warnings;
+    info.log = [](void* user, BrumeLogLevel level, const char* message) {
+        if (level == BRUME_LOG_WARNING)
+            static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+    };
+    const Context context(info);
+    const Scene scene = makeScene(context);
+    EXPECT_TRUE(warnings.empty()) << warnings[0];
+    auto sceneInfo = init<BrumeSceneCreateInfo>();
+    std::string text = kSpheresScene;
+    text.insert(1, R"( "particleBudget": 10,)");
+    sceneInfo.text = text.c_str();
+    const Scene cut(context, sceneInfo);
+    auto puffs = init<BrumeEffect>();
+    puffs.text = kEffect;
+    check(brumeAddEffect(cut.get(), &puffs, nullptr));
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("10"), std::string::npos) << warnings[0];
+}
+
+// It is not made anew, and it is the host's to destroy: validation tells of a second time.
+TEST_F(HostTest, PipelineCacheOfTheHost_StaysTheHosts) {
+    auto info = host().contextInfo();
+    const VkPipelineCacheCreateInfo cacheInfo{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    ASSERT_EQ(deviceFunction<PFN_vkCreatePipelineCache>(info, "vkCreatePipelineCache")(
+                  info.device, &cacheInfo, nullptr, &info.pipelineCache),
+              VK_SUCCESS);
+    {
+        const Context context(info);
+        Scene scene = makeScene(context);
+        scene.prepare(host().view());
+    }
+    std::size_t bytes = 0;
+    EXPECT_EQ(deviceFunction<PFN_vkGetPipelineCacheData>(info, "vkGetPipelineCacheData")(
+                  info.device, info.pipelineCache, &bytes, nullptr),
+              VK_SUCCESS);
+    EXPECT_GT(bytes, 0u);
+    deviceFunction<PFN_vkDestroyPipelineCache>(info, "vkDestroyPipelineCache")(
+        info.device, info.pipelineCache, nullptr);
 }
 
 TEST_F(HostTest, BadArguments_AreRefusedByName) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 
 namespace brume::test {
 namespace {
@@ -95,7 +96,12 @@ PFN_vkVoidFunction VKAPI_CALL getInstanceProc(VkInstance instance, const char* n
 struct Outcome {
     std::vector<BrumeResult> errors;
     std::vector<vec4> image;
+    int latePipelines = 0;  // made after brumePrepare()
 };
+
+int countPipelines() {
+    return gFaults.calls["vkCreateComputePipelines"] + gFaults.calls["vkCreateGraphicsPipelines"];
+}
 
 Outcome runAll(TestHost& host, const char* method) {
     Outcome run;
@@ -124,6 +130,7 @@ Outcome runAll(TestHost& host, const char* method) {
     host.draw({0.2f, 0.3f, 0.4f}, 0);
     const BrumeView view = host.view();
     insist([&] { return brumePrepare(scene, &view); });
+    run.latePipelines = -countPipelines();
     auto step = init<BrumeStep>();
     step.seconds = 0.3;
     bool isStepped = false;
@@ -141,33 +148,40 @@ Outcome runAll(TestHost& host, const char* method) {
         }
         return result;
     });
+    run.latePipelines += countPipelines();
     run.image = host.read();
     brumeDestroyContext(context);
     return run;
 }
 
-/// BRUME_FAULTS=all: every call. Else so many per function, spread over its calls, from another
-/// place for each error and function.
-std::vector<int> chooseCalls(int count, int wantedCount, VkResult error) {
+bool isThorough() {
     const char* wanted = std::getenv("BRUME_FAULTS");
-    const bool isAll = wanted && std::string_view(wanted) == "all";
-    const int stride = isAll ? 1 : std::max((count + wantedCount - 1) / wantedCount, 1);
-    const int start = static_cast<int>((static_cast<unsigned>(-error) * 7919u + count) % stride);
-    std::vector<int> calls;
-    for (int call = isAll ? 0 : start; call < count; call += stride) calls.push_back(call);
+    return wanted && std::string_view(wanted) == "all";
+}
+
+/// Calls of a function that was called `count` times: all if isThorough(), else one, another for
+/// each error and function.
+std::vector<int> chooseCalls(int count, VkResult error) {
+    if (!isThorough())
+        return {static_cast<int>((static_cast<unsigned>(-error) * 7919u + count) % count)};
+    std::vector<int> calls(count);
+    std::iota(calls.begin(), calls.end(), 0);
     return calls;
 }
 
 struct FaultCase {
     VkResult error;
     const char* method;
-    int callsPerFunction;
+    int every;  // of so many functions one, unless isThorough()
 };
+
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.method; }
 
 class HostFaults : public ::testing::TestWithParam<FaultCase> {};
 
 TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {
-    const auto [error, method, callsPerFunction] = GetParam();
+    const auto [error, method, every] = GetParam();
     std::vector<std::string> messages;
     gpu::DeviceOptions options;
     options.validate = true;
@@ -180,16 +194,22 @@ TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {
         gFaults = {};
         const Outcome good = runAll(host, method);
         EXPECT_TRUE(good.errors.empty());
+        EXPECT_EQ(good.latePipelines, 0) << "brumePrepare() makes all of them";
         const std::map<std::string, int> calls = gFaults.calls;
         EXPECT_EQ(calls.size(), 14u) << "functions that the library calls";
+        gFaults = {};
+        host.frames = 0;
+        runAll(host, method);
+        EXPECT_EQ(gFaults.calls, calls) << "they are the same each time";
         const std::map<VkResult, BrumeResult> expected = {
             {VK_ERROR_OUT_OF_DEVICE_MEMORY, BRUME_ERROR_OUT_OF_DEVICE_MEMORY},
             {VK_ERROR_OUT_OF_HOST_MEMORY, BRUME_ERROR_OUT_OF_HOST_MEMORY},
             {VK_ERROR_DEVICE_LOST, BRUME_ERROR_DEVICE_LOST}};
-        int tried = 0, made = 0;
+        int tried = 0, made = 0, index = -error;
         for (const auto& [function, count] : calls) {
             made += count;
-            for (const int call : chooseCalls(count, callsPerFunction, error)) {
+            if (!isThorough() && index++ % every != 0) continue;
+            for (const int call : chooseCalls(count, error)) {
                 gFaults = {{}, function, call, error, false};
                 SCOPED_TRACE(function + ", call " + std::to_string(call));
                 host.frames = 0;
@@ -211,9 +231,9 @@ TEST_P(HostFaults, EachCallInTurn_IsReportedAndSurvived) {
 
 INSTANTIATE_TEST_SUITE_P(All, HostFaults,
                          ::testing::Values(FaultCase{VK_ERROR_OUT_OF_DEVICE_MEMORY, "unordered", 1},
-                                           FaultCase{VK_ERROR_OUT_OF_HOST_MEMORY, "unordered", 1},
-                                           FaultCase{VK_ERROR_DEVICE_LOST, "unordered", 1},
-                                           FaultCase{VK_ERROR_OUT_OF_DEVICE_MEMORY, "tile", 1}),
+                                           FaultCase{VK_ERROR_OUT_OF_HOST_MEMORY, "unordered", 2},
+                                           FaultCase{VK_ERROR_DEVICE_LOST, "unordered", 2},
+                                           FaultCase{VK_ERROR_OUT_OF_DEVICE_MEMORY, "tile", 3}),
                          [](const auto& tested) {
                              return "Error" + std::to_string(-tested.param.error) + "_" +
                                     tested.param.method;

@@ -3,6 +3,10 @@
 #include <gpu/upload.hpp>
 #include <host/host_fixture.hpp>
 
+#include <bench/prepare.hpp>
+#include <render/renderer.hpp>
+#include <scene/loader.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -77,6 +81,49 @@ void TestHost::frame(BrumeContext context, const std::function<void(VkCommandBuf
 }
 
 std::vector<vec4> TestHost::read() { return submitter.readImage<vec4>(color); }
+
+std::vector<vec4> TestHost::render(const Context& context, Scene& scene, BrumeView seen,
+                                   double seconds) {
+    seen.color.layout = color.layout();
+    seen.depth.layout = depth.layout();
+    frame(context.get(), [&](VkCommandBuffer commands) {
+        scene.cmdSimulate(commands, seconds);
+        scene.cmdRender(commands, seen);
+    });
+    return read();
+}
+
+std::vector<vec4> TestHost::show(const Context& context, Scene& scene, double seconds) {
+    return show(context, scene, seconds, view());
+}
+
+std::vector<vec4> TestHost::show(const Context& context, Scene& scene, double seconds,
+                                 const BrumeView& seen) {
+    draw(kBackdrop, 0);
+    return render(context, scene, seen, seconds);
+}
+
+brume::Image HostTest::renderWhole(const std::string& file, const std::string& method) {
+    const auto prepared = bench::prepareScene(scene::loadScene(file, log()), log());
+    render::Options options;
+    options.method = method;
+    return render::Renderer(device(), prepared, options, log()).renderFrame().image;
+}
+
+Scene makeSceneOfText(const Context& context, const char* text, const char* method) {
+    auto info = init<BrumeSceneCreateInfo>();
+    info.text = text;
+    info.method = method;
+    return Scene(context, info);
+}
+
+double largestDifference(const std::vector<vec4>& a, const brume::Image& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            largest = std::max(largest, std::abs(double(a[i][c]) - b.pixels[i][c]));
+    return largest;
+}
 
 void setPerspective(double* clip, double focal, double aspect, double near, double far,
                     bool isReversed) {

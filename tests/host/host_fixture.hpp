@@ -6,6 +6,7 @@
 #include <gpu/gpu_fixture.hpp>
 #include <gpu/image.hpp>
 
+#include <core/image.hpp>
 #include <core/math.hpp>
 
 #include <functional>
@@ -16,6 +17,9 @@
 #include <vector>
 
 namespace brume::test {
+
+/// The background of kSpheresScene.
+inline constexpr vec3 kBackdrop(0.2f, 0.3f, 0.4f);
 
 /// A device as a host has it, colour and depth images, and the frames in between.
 class TestHost {
@@ -30,6 +34,13 @@ class TestHost {
     void frame(BrumeContext context, const std::function<void(VkCommandBuffer)>& record);
     /// The colours now.
     std::vector<vec4> read();
+    /// A frame of `scene` over what was drawn; the colours then. The view's layouts are put right.
+    std::vector<vec4> render(const Context& context, Scene& scene, BrumeView view,
+                             double seconds = 0);
+    /// The same over kBackdrop with nothing opaque.
+    std::vector<vec4> show(const Context& context, Scene& scene, double seconds = 0);
+    std::vector<vec4> show(const Context& context, Scene& scene, double seconds,
+                           const BrumeView& view);
 
     /// A view of the whole image from `position` along -z, reversed infinite depth, 60 degrees up
     /// and down.
@@ -41,6 +52,11 @@ class TestHost {
     gpu::Image color, depth;
     std::uint64_t frames = 0;
 };
+
+Scene makeSceneOfText(const Context& context, const char* text, const char* method = nullptr);
+
+/// Over all pixels and colours; alpha aside.
+double largestDifference(const std::vector<vec4>& a, const brume::Image& b);
 
 /// Column-major projection with w = -z. `far` 0: infinite; `isReversed`: near is 1.
 void setPerspective(double* clipFromView, double focal, double aspect, double near, double far,
@@ -57,6 +73,8 @@ class HostTest : public GpuTest {
         GpuTest::TearDown();
     }
     TestHost& host() { return *mHost; }
+    /// The picture that the renderer of whole images makes of a scene file.
+    brume::Image renderWhole(const std::string& file, const std::string& method);
 
   private:
     std::optional<TestHost> mHost;

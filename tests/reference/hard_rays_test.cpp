@@ -83,6 +83,12 @@ struct PileCase {
     bool withSmooth;
 };
 
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const PileCase& p, std::ostream* out) {
+    *out << p.count << " from " << p.minExtinction << " to " << p.maxExtinction
+         << (p.withSmooth ? " smooth" : "");
+}
+
 class ReferenceHardRay_Pile : public testing::TestWithParam<PileCase> {};
 
 TEST_P(ReferenceHardRay_Pile, AgainstBruteForce_AgreesTo1e7) {

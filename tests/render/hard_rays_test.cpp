@@ -44,6 +44,9 @@ struct PileCase {
     Profiles profiles;
 };
 
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const PileCase& p, std::ostream* out) { *out << p.name; }
+
 class HardRays_Pile : public RenderTest, public testing::WithParamInterface<PileCase> {};
 
 TEST_P(HardRays_Pile, AgainstReference_IsExact) {

@@ -133,6 +133,43 @@ TEST_F(ShadowHardCases, GrazingLightOnAFloor_HasNoAcne) {
     }
 }
 
+const render::Options kMethod{.method = "unordered"};  // exact for one layer
+
+/// A glossy pane that a low sun from the left lights up, before nothing.
+TestScene makeGlossyPane(const std::string& store) {
+    TestScene s(12, 12);
+    s.scene.background.radiance = dvec3(0);
+    addSun(s, store, dvec3(0.95, 0, 0.31));
+    scene::Material glossy = makeThin(1, dvec3(0.2), dvec3(0.05));
+    glossy.roughness = 0.7;
+    s.addPane(s.addMaterial(glossy), 0);
+    return s;
+}
+
+// What reflects diffusely and what mirrors the lamp lose the same share: nothing to the pane
+// itself, all to a wall, half to another pane, neither of which is in sight.
+TEST_F(ShadowHardCases, HighlightOfAPane_IsShadowedAsTheRest) {
+    const TestScene lit = makeGlossyPane("none");
+    TestScene matt = lit;
+    matt.scene.materials[0].roughness = -1;
+    const Image expected = render(lit, kMethod).image;
+    EXPECT_GT(expected.at(6, 6).x, 1.5f * render(matt, kMethod).image.at(6, 6).x)
+        << "there is a highlight";
+    for (const double share : {1.0, 0.5, 0.0}) {
+        TestScene s = makeGlossyPane("visibility");
+        const scene::Material between =
+            share > 0 ? makeThin(1, dvec3(share)) : makeOpaque(dvec3(0));
+        if (share < 1)
+            s.addMesh(scene::makePlane(dvec2(3, 9)), s.addMaterial(between),
+                      translation(dvec3(-3.4, 0, -1)) *
+                          glm::rotate(dmat4(1), radians(-90), dvec3(1, 0, 0)));
+        const Image image = render(s, kMethod).image;
+        EXPECT_NEAR(image.at(6, 6).x, share * expected.at(6, 6).x, 1e-5) << share;
+        for (std::size_t i = 0; share == 1 && i < image.pixels.size(); ++i)
+            ASSERT_NEAR(image.pixels[i].x, expected.pixels[i].x, 1e-5) << i;
+    }
+}
+
 TEST_F(ShadowHardCases, ReceiverInThePlaneOfAPane_IsFinite) {
     TestScene s;
     addSun(s, "exact", dvec3(0, -1, 0.001));

@@ -119,7 +119,7 @@ TEST(PreviewScale_SlowPictures, GetCoarserWhileMovingOnly) {
     scale.addPicture(1, 180);
     EXPECT_EQ(scale.choose(true), 2);  // 180 / 4 fits
     EXPECT_EQ(scale.choose(false), 1);
-    scale.addPicture(2, 120);          // it did not
+    scale.addPicture(2, 120);  // it did not
     EXPECT_EQ(scale.choose(true), 4);
     scale.isEnabled = false;
     EXPECT_EQ(scale.choose(true), 1);

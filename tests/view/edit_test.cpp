@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Editing effect files, watching files, reloading scenes, recording.
+#include <bench/prepare.hpp>
 #include <core/error.hpp>
 #include <core/image_io.hpp>
 #include <particles/modules/module.hpp>
+#include <scene/loader.hpp>
 #include <view/document.hpp>
 #include <view/recorder.hpp>
 
@@ -32,7 +34,8 @@ EffectKey findKey(const EffectEdit& edit, const std::string& pointer) {
 }
 
 TEST(JsonText_ChangedValue, LeavesAllElseInPlace) {
-    const std::string text = "{ \"b\": [1, { \"x\": \"a,}\\\"\" }], // note\n  \"a\": 2.50, \"c\": {} }\n";
+    const std::string text =
+        "{ \"b\": [1, { \"x\": \"a,}\\\"\" }], // note\n  \"a\": 2.50, \"c\": {} }\n";
     JsonText json(text, "t.json");
     json.set("/a", 7);
     EXPECT_EQ(json.text(), replaced(text, "2.50", "7"));
@@ -42,9 +45,10 @@ TEST(JsonText_ChangedValue, LeavesAllElseInPlace) {
               "{ \"b\": [0.1, { \"x\": \"new\" }], // note\n  \"a\": 7, \"c\": {} }\n");
     json.set("/c/y", {1, 2.5});
     json.set("/z", true);
-    EXPECT_EQ(json.text(),
-              "{ \"b\": [0.1, { \"x\": \"new\" }], // note\n  \"a\": 7, \"c\": { \"y\": [1, 2.5] }, "
-              "\"z\": true }\n");
+    EXPECT_EQ(
+        json.text(),
+        "{ \"b\": [0.1, { \"x\": \"new\" }], // note\n  \"a\": 7, \"c\": { \"y\": [1, 2.5] }, "
+        "\"z\": true }\n");
     EXPECT_EQ(json.root()["c"]["y"][1], 2.5);
 }
 
@@ -165,6 +169,29 @@ TEST(Document_ChangedEffect, IsReloadedAndBadOnesAreNot) {
     EXPECT_NE(document.effects()[0]->text().find("\"rate\": 400"), std::string::npos);
 }
 
+// Ribbons of sub-emitters have the material that they ask for, as in `brume render`.
+TEST(Document_SubEmitters, KeepTheirMaterialsAndMedia) {
+    const ScratchFolder folder;
+    folder.write("trail.effect.json", R"({ "version": 1, "capacity": 100, "tickRate": 30,
+      "surface": { "type": "ribbon", "material": "pane" }, "emitters": [ { "lifetime": 0.3 } ],
+      "overLife": { "radius": [[0, 0.04], [1, 0.01]] } })");
+    folder.write("sparks.effect.json",
+                 replaced(test::kSparks, "\"modules\"",
+                          "\"subEmitters\": [ { \"on\": \"way\", \"effect\": "
+                          "\"trail.effect.json\", \"rate\": 40 } ],\n  \"modules\""));
+    const Log log;
+    const Document document(folder / "scene.json", log);
+    const scene::Scene& shown = document.prepared().scene;
+    const scene::Scene rendered =
+        bench::prepareScene(scene::loadScene(folder / "scene.json", log), log).scene;
+    ASSERT_EQ(shown.effects.size(), 2u);
+    EXPECT_EQ(shown.effects[0].medium, rendered.effects[0].medium);
+    const std::uint32_t material = shown.effects[1].material;
+    EXPECT_EQ(material, rendered.effects[1].material);
+    EXPECT_EQ(shown.materials.at(material).type, scene::MaterialType::Thin);
+    EXPECT_EQ(shown.materials[material].transmission, dvec3(0.9, 0.2, 0.1));
+}
+
 TEST(Document_EditedEffect, ShowsAtOnceAndSavingIsNoNews) {
     const ScratchFolder folder;
     const Log log;
@@ -219,8 +246,9 @@ class PathScope {
 // Whatever the program, it must be given whole pictures and the words that ffmpeg wants.
 TEST(Recorder_Film, GivesWholePicturesToFfmpeg) {
     const ScratchFolder folder;
-    const PathScope path(folder, "echo \"$@\" > \"$(dirname \"$0\")/words\"\nfor last; do :; done\n"
-                                 "cat > \"$last\"\n");
+    const PathScope path(folder,
+                         "echo \"$@\" > \"$(dirname \"$0\")/words\"\nfor last; do :; done\n"
+                         "cat > \"$last\"\n");
     ASSERT_TRUE(hasFfmpeg());
     Recorder recorder(folder / "film.mp4", 25);
     const Image image(6, 4, vec3(1.0f, 0.0f, 0.25f));

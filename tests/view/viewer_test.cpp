@@ -53,7 +53,8 @@ class ViewerTest : public testing::Test {
     /// `brume view` of the scene under validation; its messages go to the file "log".
     std::string command(const std::string& options) const {
         return std::string(BRUME_EXECUTABLE) + " view " + path("scene.json") +
-               " --validate --method sorted --size 480x300 " + options + " >" + path("log") + " 2>&1";
+               " --validate --method sorted --size 480x300 " + options + " >" + path("log") +
+               " 2>&1";
     }
     int runScript(const std::string& script) const {
         mFolder.write("script", script);
@@ -93,7 +94,8 @@ TEST_F(ViewerTest, Script_DrivesTheWindow) {
     EXPECT_FALSE(isBlank(first, 300, 10, 470, 250)) << "no panels";
     const Image played = readImage(mFolder / "played.png");
     EXPECT_GT(differingShare(first, played, 0.45), 0.002);
-    const Image split = readImage(mFolder / "split.png"), errors = readImage(mFolder / "errors.png");
+    const Image split = readImage(mFolder / "split.png"),
+                errors = readImage(mFolder / "errors.png");
     EXPECT_GT(differingShare(split, errors, 0.45), 0.3);
     // The button says Pause now.
     const Image pressed = readImage(mFolder / "pressed.png");
@@ -156,15 +158,16 @@ class Screen {
         const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
         const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes.at(at)); };
         const auto word = [&](std::size_t at) {
-            return std::size_t{byte(at)} << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
+            return std::size_t{byte(at)} << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 |
+                   byte(at + 3);
         };
         const std::size_t start = word(0) + 12 * word(76), stride = word(48);
         Image image(width, height);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (int channel = 0; channel < 3; ++channel)
-                    image.at(x, y)[channel] = static_cast<float>(linearFromSrgb(
-                        byte(start + y * stride + 4 * x + 2 - channel) / 255.0));
+                    image.at(x, y)[channel] = static_cast<float>(
+                        linearFromSrgb(byte(start + y * stride + 4 * x + 2 - channel) / 255.0));
         return image;
     }
 
@@ -231,7 +234,8 @@ TEST_F(ViewerTest, TrueWindow_FollowsKeysAndMouse) {
     EXPECT_FALSE(isBlank(dragged, 0, 0, dragged.width, dragged.height));
     // Another size of the window, then back home.
     fs::remove(mFolder / "brume.png");
-    runShell("xdotool search --name brume windowsize 400 260; xdotool key r; sleep 1; xdotool key p");
+    runShell(
+        "xdotool search --name brume windowsize 400 260; xdotool key r; sleep 1; xdotool key p");
     ASSERT_TRUE(waitFor("test -s " + path("brume.png"))) << mFolder.read("log");
     const Image small = readImage(mFolder / "brume.png");
     EXPECT_LT(small.width, dragged.width);

@@ -17,6 +17,11 @@ struct Known {
     std::uint64_t voxels;
 };
 
+/// Its name in lists of tests, the same in every run.
+void PrintTo(const Known& known, std::ostream* out) {
+    *out << known.file << ' ' << known.grid << ' ' << known.index;
+}
+
 class KnownFiles : public testing::TestWithParam<Known> {};
 
 TEST_P(KnownFiles, ListGrids_CountsAndBoxes_AreRight) {

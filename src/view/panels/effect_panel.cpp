@@ -28,8 +28,8 @@ bool editWord(EffectKey& key) {
 bool editNumbers(EffectKey& key) {
     double largest = 0;
     for (const double value : key.values) largest = std::max(largest, std::abs(value));
-    const auto step = static_cast<float>(
-        key.isInteger ? std::max(0.1, 0.005 * largest) : std::max(0.005 * largest, 0.002));
+    const auto step = static_cast<float>(key.isInteger ? std::max(0.1, 0.005 * largest)
+                                                       : std::max(0.005 * largest, 0.002));
     const std::string unit = key.unit.empty() || key.values.size() > 1 ? "" : " " + key.unit;
     const std::string format = (key.isInteger ? "%.0f" : "%.4g") + unit;
     return ImGui::DragScalarN("##value", ImGuiDataType_Double, key.values.data(),
@@ -37,13 +37,21 @@ bool editNumbers(EffectKey& key) {
                               format.c_str(), ImGuiSliderFlags_AlwaysClamp);
 }
 
+/// Where the values of a group begin: right of its longest name.
+float findColumn(const EffectGroup& group) {
+    float widest = 4.5f * ImGui::GetFontSize();
+    for (const EffectKey& key : group.keys)
+        widest = std::max(widest, ImGui::CalcTextSize(key.name.c_str()).x);
+    return ImGui::GetCursorPosX() + widest + ImGui::GetStyle().ItemSpacing.x;
+}
+
 /// Whether it was changed.
-bool showKey(EffectKey& key) {
+bool showKey(EffectKey& key, float column) {
     ImGui::PushID(key.pointer.c_str());
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(key.name.c_str());
     explain(fmt::format("{}{}{}", key.summary, key.unit.empty() ? "" : "\n\nUnit: ", key.unit));
-    ImGui::SameLine(7.5f * ImGui::GetFontSize());
+    ImGui::SameLine(column);
     ImGui::SetNextItemWidth(-1);
     const bool isChanged = key.choices.empty() ? editNumbers(key) : editWord(key);
     ImGui::PopID();
@@ -53,11 +61,13 @@ bool showKey(EffectKey& key) {
 void showEffect(Stage& stage, EffectEdit& edit) {
     for (EffectGroup& group : edit.groups()) {
         ImGui::PushID(group.keys.empty() ? group.title.c_str() : group.keys[0].pointer.c_str());
-        const bool isOpen = ImGui::TreeNodeEx(group.title.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
+        const bool isOpen =
+            ImGui::TreeNodeEx(group.title.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
         explain(group.summary);
         if (isOpen) {
+            const float column = findColumn(group);
             for (EffectKey& key : group.keys)
-                if (showKey(key))
+                if (showKey(key, column))
                     stage.attempt([&] {
                         edit.set(key);
                         stage.document.applyEffects();

@@ -101,9 +101,8 @@ void drawScale(const Stage& stage, ImDrawList& list, ImVec2 corner) {
         drawScale(list, from, to, kErrors);
     } else if (stage.show == Show::Layers || stage.show == Show::Fragments) {
         const auto at = [](double layers) { return oit::layer_count::heatOf(layers); };
-        const Mark marks[] = {{0, "0"},          {at(1), "1"},     {at(4), "4"},
-                              {at(16), "16"},    {at(64), "64"},   {at(256), "256"},
-                              {at(1024), "1024"}};
+        const Mark marks[] = {{0, "0"},       {at(1), "1"},     {at(4), "4"},      {at(16), "16"},
+                              {at(64), "64"}, {at(256), "256"}, {at(1024), "1024"}};
         drawScale(list, from, to, marks);
     }
 }
@@ -120,23 +119,30 @@ std::string describeState(const Stage& stage, std::size_t index) {
     return text;
 }
 
-std::string describeErrors(const Stage& stage, std::size_t index) {
+/// In one line, or in two where `width` asks for it; returns the height taken.
+float drawErrors(const Stage& stage, ImDrawList& list, std::size_t index, ImVec2 at, float width) {
     const bench::ErrorMetrics& m = stage.comparison().metrics[index];
-    return fmt::format("rmse {:.2e}   max {:.2e}   bias {:+.2e}   flip {:.3f}", m.rmse, m.max,
-                       m.bias, m.flip);
+    const std::string first = fmt::format("rmse {:.2e}   max {:.2e}", m.rmse, m.max),
+                      second = fmt::format("bias {:+.2e}   flip {:.3f}", m.bias, m.flip),
+                      both = first + "   " + second;
+    if (ImGui::CalcTextSize(both.c_str()).x + 2 * ImGui::GetFontSize() < width)
+        return drawLabel(list, at, both, kDim);
+    const float height = drawLabel(list, at, first, kDim);
+    return height + drawLabel(list, {at.x, at.y + height}, second, kDim);
 }
 
 /// What there is to know about one picture, from the corner down.
-void drawCaption(const Stage& stage, ImDrawList& list, std::size_t index, ImVec2 at) {
+void drawCaption(const Stage& stage, ImDrawList& list, std::size_t index, ImVec2 at, float width) {
     const bool isCompared = isComparing(stage.show);
     at.y += drawLabel(list, at, describeState(stage, index), kLight);
-    if (!stage.pane(index).problem().empty()) drawLabel(list, at, "not up to date: see below", kRed);
+    if (!stage.pane(index).problem().empty())
+        drawLabel(list, at, "not up to date: see below", kRed);
     if (!isCompared) return;
-    if (stage.comparison().divisor > 0)
-        at.y += drawLabel(list, at, describeErrors(stage, index), kDim);
+    if (stage.comparison().divisor > 0) at.y += drawErrors(stage, list, index, at, width);
     if (index > 0) return;
     if (const auto progress = stage.comparisonProgress())
-        drawLabel(list, at, fmt::format("computing the reference {:.0f} %", 100 * *progress), kAccent);
+        drawLabel(list, at, fmt::format("computing the reference {:.0f} %", 100 * *progress),
+                  kAccent);
     else if (stage.comparison().divisor == 0)
         drawLabel(list, at, "the reference begins when the picture stands still", kAccent);
 }
@@ -152,14 +158,15 @@ void showDivider(Stage& stage, UiState& ui, ImVec2 from, ImVec2 size) {
     if (isNear && ImGui::IsMouseClicked(0)) ui.isDividerHeld = true;
     if (!ImGui::IsMouseDown(0)) ui.isDividerHeld = false;
     if (ui.isDividerHeld)
-        stage.splitAt =
-            std::clamp(static_cast<double>((mouse.x - from.x) / size.x), 0.02, 0.98);
+        stage.splitAt = std::clamp(static_cast<double>((mouse.x - from.x) / size.x), 0.02, 0.98);
     if (isNear || ui.isDividerHeld) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     list.AddLine({x, from.y}, {x, from.y + size.y}, isNear ? kAccent : kLight, 2);
 }
 
-void drawMessages(const Stage& stage, ImDrawList& list, ImVec2 from, ImVec2 size) {
+/// Returns the height that a message takes.
+float drawMessages(const Stage& stage, ImDrawList& list, ImVec2 from, ImVec2 size) {
     const float line = ImGui::GetFontSize();
+    float taken = 0;
     ImVec2 at(from.x + 0.7f * line, from.y + size.y - 2.2f * line);
     if (stage.message().secondsLeft > 0) {
         const std::string& text = stage.message().text;
@@ -172,14 +179,17 @@ void drawMessages(const Stage& stage, ImDrawList& list, ImVec2 from, ImVec2 size
         list.AddText(ImGui::GetFont(), line, at, stage.message().isError ? kRed : kLight,
                      text.c_str(), nullptr, wrap);
         at.y -= 2 * line;
+        taken = extent.y + 1.2f * line;
     }
     if (stage.isRecording())
-        drawLabel(list, at,
-                  fmt::format("recording {:.0f} %", 100 * stage.recordingProgress()), kAccent);
-    else if (stage.shownDivisor() > stage.resolutionDivisor)
-        drawLabel(list, at,
-                  fmt::format("preview at 1/{} of the resolution while it moves", stage.shownDivisor()),
+        drawLabel(list, at, fmt::format("recording {:.0f} %", 100 * stage.recordingProgress()),
                   kAccent);
+    else if (stage.shownDivisor() > stage.resolutionDivisor)
+        drawLabel(
+            list, at,
+            fmt::format("preview at 1/{} of the resolution while it moves", stage.shownDivisor()),
+            kAccent);
+    return taken;
 }
 
 }  // namespace
@@ -213,12 +223,13 @@ ivec2 showPictures(Stage& stage, UiState& ui, double seconds) {
                           {from.x + hi * size.x, from.y + size.y}, {lo, 0}, {hi, 1});
         list.PushClipRect({from.x + lo * size.x, from.y}, {from.x + hi * size.x, from.y + size.y},
                           true);
-        drawCaption(stage, list, i, {from.x + lo * size.x + 0.6f * line, from.y + 0.6f * line});
+        drawCaption(stage, list, i, {from.x + lo * size.x + 0.6f * line, from.y + 0.6f * line},
+                    (hi - lo) * size.x);
         list.PopClipRect();
     }
     if (stage.isSplit) showDivider(stage, ui, from, size);
-    if (size.x > 30 * line) drawScale(stage, list, {from.x + size.x, from.y + size.y});
-    drawMessages(stage, list, from, size);
+    const float messages = drawMessages(stage, list, from, size);
+    if (size.x > 30 * line) drawScale(stage, list, {from.x + size.x, from.y + size.y - messages});
     return pixels;
 }
 
