@@ -12,4 +12,11 @@ float opaqueDistanceAt(ivec2 pixel) {
     return kOpaque ? texelFetch(opaqueT, pixel, 0).x : kNothingT;
 }
 
+// Whether something at distance t may be in front of it, for passes that work in single precision
+// before others that work in double: some too many.
+bool mayBeInFront(float t, ivec2 pixel) {
+    const float kMargin = 1e-4;
+    return !kOpaque || t < opaqueDistanceAt(pixel) * (1.0 + kMargin);
+}
+
 #endif

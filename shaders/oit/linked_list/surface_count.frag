@@ -7,15 +7,10 @@
 #include "../../common/surface.glsl"
 #include "pixels.glsl"
 
-
-// Distances are finer where surfaces are stored: room for some too many.
-const float kMargin = 1e-4;
-
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    bool isSeen = !kOpaque || isSolid(point) ||
-                  point.t < opaqueDistanceAt(ivec2(pixel)) * (1.0 + kMargin);
+    bool isSeen = isSolid(point) || mayBeInFront(point.t, ivec2(pixel));
     uint slot, inside;
     if (!isSeen || !findPixel(pixel, true, slot, inside)) return;
     atomicAdd(UintArray(push.surfaceOffsets).at[slot * kTileOffsets + inside], 1u);

@@ -3,18 +3,17 @@
 // too: their exits tell whether the eye is inside.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../common/opaque.glsl"
 #include "../../common/surface.glsl"
 #include "../../gpu/address.glsl"
 #include "tile.h"
 
 layout(push_constant, scalar) uniform Push { TilePush push; };
-layout(binding = kBindingOpaqueT) uniform sampler2D opaqueT;
 
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (point.material.type != kMaterialSolid && point.t >= texelFetch(opaqueT, ivec2(pixel), 0).x)
-        return;
+    if (!isSolid(point) && !mayBeInFront(point.t, ivec2(pixel))) return;
     uvec2 tile = pixel / kTileSize;
     atomicMax(UintArray(push.classes).at[tile.y * frame.tiles.x + tile.x], kClassLists);
 }
