@@ -38,7 +38,7 @@ struct MixWindows {
     std::uint32_t spheres;  ///< of each tile, in order.comp
 };
 constexpr std::array<MixWindows, kMixCount> kMixWindows = {
-    {{4, 8}, {8, 12}, {12, 16}, {16, 24}, {24, 48}}};
+    {{4, 8}, {6, 10}, {8, 12}, {12, 16}, {16, 24}, {24, 48}}};
 
 const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
 const std::vector<gpu::Binding> kImages = {

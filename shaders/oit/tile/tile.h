@@ -39,7 +39,7 @@ BRUME_CONST uint kClassOrdered = 1u;  // media one behind the other, or of one c
 BRUME_CONST uint kClassVolumes = 2u;  // bricks and boxes of one medium; spheres of one source too
 BRUME_CONST uint kClassMix = 3u;      // spheres of constant density that mix: with the first of the
                                       // sizes of windows, with the second ...
-BRUME_CONST uint kClassLists = 8u;    // everything else: sorted lists of each pixel
+BRUME_CONST uint kClassLists = 9u;    // everything else: sorted lists of each pixel
 
 struct TileCounters {
     uint stopped;    // invocations that stopped before their last medium
