@@ -64,7 +64,7 @@ TEST_P(ExactScenes, IsTheReferencesImageAndAlwaysTheSameBits) {
 
 TEST_F(ExactBands, Bands_ShowTheSameBits) {
     render::PreparedScene scene = bench::prepareNamed(bench::makeScenes("engine").at(0), log());
-    scene.scene.image = {192, 108, 1};
+    scene.scene.image = {384, 216, 1};
     for (const char* method : {"tile", "linked_list"}) {
         const render::Result whole = renderWith(scene, method, {});
         const render::Result bands = renderWith(scene, method, {{"budgetMiB", "1"}});
