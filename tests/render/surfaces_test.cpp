@@ -92,7 +92,7 @@ TEST_F(Surfaces, Textures_AreExact) {
     painted.emissionTexture = makeTexture(3, 2);
     s.addMesh(scene::makeBox(dvec3(0.6)), s.addMaterial(painted),
               translation(dvec3(0.6, -0.3, 0.2)));
-    expectExact(s, "textures", 1e-4, kEdgeShare);
+    expectExact(s, "textures", 1e-5, kEdgeShare);
 }
 
 TEST_F(Surfaces, AlphaMask_CutsTheSameHoles) {
@@ -105,7 +105,7 @@ TEST_F(Surfaces, AlphaMask_CutsTheSameHoles) {
     grate.colorTexture = makeTexture(6, 6);
     grate.alphaCutoff = 0.4;
     s.addPane(s.addMaterial(grate), 0, 0.9);
-    expectExact(s, "masks", 1e-4, 1e-2);
+    expectExact(s, "masks", 1e-5, 1e-2);
 }
 
 TEST_F(Surfaces, MirroredAndStretchedMeshes_AreExact) {
