@@ -13,8 +13,7 @@ vec3 environmentTexel(sampler2D environment, vec3 d) {
     vec2 position = uv * size - 0.5;
     vec2 corner = floor(position), f = position - corner;
     ivec2 low = ivec2(corner), last = ivec2(frame.environmentSize) - 1;
-    ivec2 x = ivec2((low.x + frame.environmentSize.x) % frame.environmentSize.x,
-                    (low.x + 1 + frame.environmentSize.x) % frame.environmentSize.x);
+    ivec2 x = ivec2(low.x < 0 ? last.x : low.x, low.x < last.x ? low.x + 1 : 0);
     ivec2 y = clamp(ivec2(low.y, low.y + 1), ivec2(0), last.yy);
     return mix(mix(texelFetch(environment, ivec2(x.x, y.x), 0).rgb,
                    texelFetch(environment, ivec2(x.y, y.x), 0).rgb, f.x),

@@ -8,12 +8,16 @@
 #include "glass.glsl"
 #include "lighting.glsl"
 #include "mesh.h"
+#include "texture.glsl"
 
 layout(location = 0) in vec3 normal;
-layout(location = 1) in vec2 uv;
+layout(location = 1) flat in uint triangle;
 layout(location = 2) flat in vec4 plane;
-layout(location = 3) flat in uint triangle;
-layout(location = 4) flat in vec4 planeLo;
+layout(location = 3) flat in vec4 planeLo;
+layout(location = 4) flat in vec4 textureU;
+layout(location = 5) flat in vec4 textureULo;
+layout(location = 6) flat in vec4 textureV;
+layout(location = 7) flat in vec4 textureVLo;
 
 layout(binding = kBindingMaterial, scalar) uniform MaterialBlock { MaterialData material; };
 layout(binding = kBindingColorTexture) uniform sampler2D colorTexture;
@@ -28,11 +32,17 @@ struct SurfacePoint {
     vec3 position;
     vec3 positionLo;  // what rounding has taken from it
     vec3 normal;  // unit, towards the viewer
+    Real2 uv;     // texture coordinates
     vec4 color;   // of the texture
     float t;      // distance along the ray
     float tLo;    // what rounding has taken from it
     bool isFront;
 };
+
+Real findLinear(Real3 place, vec4 function, vec4 functionLo) {
+    return dot(makeReal(function.xyz, functionLo.xyz), place) +
+           makeReal(function.w, functionLo.w);
+}
 
 // Discards what an alpha cutoff removes. (Meshes without a texture that it removes are not drawn.)
 SurfacePoint findSurfacePoint() {
@@ -61,8 +71,13 @@ SurfacePoint findSurfacePoint() {
     point.material.type += nothing;
     point.material.roughness += float(nothing);
     point.material.alphaCutoff += float(nothing);
+    point.uv = Real2(0);
     point.color = vec4(1);
-    if (kTextured) point.color = textureLod(colorTexture, uv, 0.0);
+    if (kTextured) {
+        point.uv = Real2(findLinear(position, textureU, textureULo),
+                         findLinear(position, textureV, textureVLo));
+        point.color = sampleTexture(colorTexture, point.uv);
+    }
     if (kTextured && point.color.a * material.coverage < point.material.alphaCutoff) discard;
     vec3 n = dot(normal, normal) > 0.0 ? normalize(normal) : plane.xyz;
     point.normal = dot(n, vec3(along)) > 0.0 ? -n : n;
@@ -71,7 +86,7 @@ SurfacePoint findSurfacePoint() {
 
 vec3 emittedRadiance(SurfacePoint point) {
     vec3 texel = vec3(1);
-    if (kTextured) texel = textureLod(emissionTexture, uv, 0.0).rgb;
+    if (kTextured) texel = sampleTexture(emissionTexture, point.uv).rgb;
     return point.material.emission * texel;
 }
 

@@ -90,8 +90,8 @@ void bindDraw(gpu::Commands& commands, const Inputs& inputs, const SurfaceDraw& 
     bindElement(shader::kBindingMesh, *inputs.meshes, draw.mesh, sizeof(shader::MeshData));
     bindElement(shader::kBindingMaterial, *inputs.materials, draw.material,
                 sizeof(shader::MaterialData));
-    commands.bind(shader::kBindingColorTexture, *draw.colorTexture, *inputs.textureSampler);
-    commands.bind(shader::kBindingEmissionTexture, *draw.emissionTexture, *inputs.textureSampler);
+    commands.bind(shader::kBindingColorTexture, *draw.colorTexture, *inputs.texelSampler);
+    commands.bind(shader::kBindingEmissionTexture, *draw.emissionTexture, *inputs.texelSampler);
 }
 
 }  // namespace brume::oit

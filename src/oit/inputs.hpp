@@ -78,7 +78,6 @@ struct Inputs {
     const gpu::Buffer* meshes = nullptr;           ///< MeshData, one every kUniformStride bytes
     const gpu::Buffer* materials = nullptr;        ///< MaterialData, likewise
     const gpu::Image* environment = nullptr;  ///< RGBA32F, one texel where there is none
-    const gpu::Sampler* textureSampler = nullptr;  ///< linear, repeating
     const gpu::Sampler* texelSampler = nullptr;    ///< nearest, for texelFetch
     std::uint32_t sphereCount = 0;                 ///< slots; those with radius 0 are empty
     std::uint32_t boxCount = 0;

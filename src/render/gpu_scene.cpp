@@ -152,10 +152,6 @@ GpuScene::GpuScene(gpu::Device& device, const PreparedScene& prepared, const Vie
       mPrepared(&prepared),
       mView(view),
       mNeeds(findNeeds(prepared)),
-      mTextureSampler(device, {.name = "render.texture_sampler",
-                               .filter = gpu::Filter::Linear,
-                               .addressX = gpu::AddressMode::Repeat,
-                               .addressY = gpu::AddressMode::Repeat}),
       mTexelSampler(device, {.name = "render.texel_sampler", .filter = gpu::Filter::Nearest}) {
     makeSpheres();
     makeVolumes();
@@ -482,7 +478,6 @@ oit::Inputs GpuScene::makeInputs() const {
             .meshes = &mMeshes,
             .materials = &mMaterials,
             .environment = &mEnvironment,
-            .textureSampler = &mTextureSampler,
             .texelSampler = &mTexelSampler,
             .sphereCount = mSphereCount,
             .boxCount = mBoxCount,

@@ -116,7 +116,7 @@ class GpuScene {
     gpu::Image mEnvironment;
     std::map<const scene::Texture*, gpu::Image> mTextures;
     std::vector<const scene::Texture*> mNewTextures;  // that are not uploaded yet
-    gpu::Sampler mTextureSampler, mTexelSampler;
+    gpu::Sampler mTexelSampler;
     std::vector<oit::SurfaceDraw> mOpaque, mTransparent;
     std::vector<std::uint32_t> mFirstEffectSphere;
     std::uint32_t mSphereCount = 0, mBoxCount = 0;

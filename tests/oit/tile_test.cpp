@@ -217,6 +217,21 @@ TEST_F(Tile, MediaBehindAWall_AreNotListed) {
     expectExact(s, "wall before", 1e-5, 0.01);
 }
 
+TEST_F(Tile, MediaOfNegligibleDepth_AreNotListed) {
+    TestScene s(16, 16);
+    s.addDaylight();
+    const std::uint32_t smoke = s.addMedium(1, 0.8);
+    const std::uint32_t glow = s.addMedium(dvec3(0), dvec3(0), dvec3(1e-12));
+    s.addSphere(smoke, dvec3(0), 0.5, Profile::Constant, 1e-7);
+    const std::uint64_t thin = render(s, mMethod).counters.at("pairs");
+    EXPECT_GT(thin, 0u) << "a strong light shows it";
+    s.addSphere(smoke, dvec3(0), 0.5, Profile::Constant, 1e-10);
+    EXPECT_EQ(render(s, mMethod).counters.at("pairs"), thin);
+    s.addSphere(glow, dvec3(0), 0.5);
+    EXPECT_EQ(render(s, mMethod).counters.at("pairs"), 2 * thin) << "glows";
+    expectExact(s, "all three");
+}
+
 TEST_F(Tile, NothingToSee_IsTheBackground) {
     TestScene s(17, 9);
     expectExact(s, "empty");

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random scenes of spheres, solids, panes and lights: the exact methods give the image of the
-// reference. A scene that fails is made as small as it goes on failing and kept as a file.
+// Random scenes of spheres, solids, panes (some with textures) and lights: the exact methods give the
+// image of the reference. A scene that fails is made as small as it goes on failing and kept as a
+// file.
 //
 // RC_PARAMS="max_success=10000 seed=7" tests others (see rapidcheck); BRUME_COUNTEREXAMPLES names
 // the folder for those that fail, instead of the temporary one.
 #include <gtest/gtest.h>
 
 #include <bench/prepare.hpp>
+#include <core/image_io.hpp>
 #include <render/render_fixture.hpp>
 #include <scene/loader.hpp>
 
@@ -118,11 +120,26 @@ rc::Gen<std::vector<Json>> upTo(int count, const rc::Gen<Json>& thing) {
     });
 }
 
+/// In the folder of the scenes, for panes and walls.
+constexpr const char* kTextureFile = "brume_counterexample.png";
+
+void writeTexture(const std::filesystem::path& folder) {
+    Image image(7, 5);
+    Random random(3);
+    for (vec3& texel : image.pixels) texel = vec3(random.vector(0, 1));
+    writeImage(folder / kTextureFile, image);
+}
+
 Json makeScene() {
     Json meshes = *upTo(3, pane()).as("panes");
     for (const Json& mesh : *upTo(2, solid()).as("solids")) meshes.push_back(mesh);
     Json lights = *upTo(2, light()).as("lights");
     lights.push_back({{"type", "ambient"}, {"radiance", {0.3, 0.4, 0.5}}});
+    Json thin = {{"type", "thin"}, {"coverage", 0.8}, {"transmission", {0.9, 0.4, 0.2}},
+                 {"reflected", {0.1, 0.2, 0.3}}};
+    Json wall = {{"type", "opaque"}, {"albedo", {0.5, 0.6, 0.7}}};
+    if (*rc::gen::arbitrary<bool>().as("has textures"))
+        thin["texture"] = wall["texture"] = kTextureFile;
     return {
         {"version", 1},
         {"camera", {{"position", {0.013, 0.021, -4}}, {"target", {0, 0, 0}}, {"verticalFov", 40}}},
@@ -131,10 +148,8 @@ Json makeScene() {
         {"lights", lights},
         {"media", {{"a", *medium().as("medium a")}, {"b", *medium().as("medium b")}}},
         {"materials",
-         {{"thin",
-           {{"type", "thin"}, {"coverage", 0.8}, {"transmission", {0.9, 0.4, 0.2}},
-            {"reflected", {0.1, 0.2, 0.3}}}},
-          {"wall", {{"type", "opaque"}, {"albedo", {0.5, 0.6, 0.7}}}},
+         {{"thin", thin},
+          {"wall", wall},
           {"solid",
            {{"type", "solid"}, {"absorption", {1, 0.5, 0.2}}, {"scattering", {0.1, 0.4, 0.3}}}}}},
         {"meshes", meshes},
@@ -171,6 +186,7 @@ TEST_F(Properties, ExactMethods_GiveTheImageOfTheReference) {
         kept ? std::filesystem::path(kept) : std::filesystem::temp_directory_path();
     const std::filesystem::path file = folder / "brume_counterexample.json";
     std::filesystem::remove(file);
+    writeTexture(folder);
     const bool holds = rc::check("exact methods give the image of the reference", [&] {
         const Json json = makeScene();
         const std::filesystem::path tried = folder / "brume_property.json";
