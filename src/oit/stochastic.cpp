@@ -17,9 +17,8 @@
 //         layers' radiance; what no sample has met yet has no variance, so that adaptive pixels with
 //         nothing but very rare light may end too early.
 // Cost: per 16 samples (coloured: 8) two raster passes; bytes per pixel as info() says.
-#include <core/error.hpp>
 #include <oit/layers.hpp>
-#include <oit/oit_method.hpp>
+#include <oit/stochastic_settings.hpp>
 
 #include <shaders/common/frame_bindings.h>
 #include <shaders/oit/stochastic/stochastic.h>
@@ -35,8 +34,6 @@
 #include <spv/oit/stochastic/store_solid.frag.hpp>
 #include <spv/oit/stochastic/store_surface.frag.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 
@@ -48,56 +45,6 @@ using frame::Access;
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 constexpr VkFormat kMaskFormat = VK_FORMAT_D32_SFLOAT;
-
-/// Two passes of 16 are the fewest that have a variance.
-constexpr std::uint32_t kLeastAdaptive = 32;
-
-struct Settings {
-    std::uint32_t samples = 4;
-    bool isNaive = false;
-    std::uint32_t estimator = shader::kEstimatorDepthAlpha;
-    std::uint32_t seed = shader::kSeedPrimitive;
-    std::uint32_t pattern = 0;
-    float error = 0;  ///< > 0: adaptive
-    std::uint32_t filter = 0;
-
-    bool isAdaptive() const { return error > 0; }
-};
-
-template <std::size_t N>
-std::uint32_t indexOf(const std::string& word, const char* const (&words)[N]) {
-    return static_cast<std::uint32_t>(std::find(words, words + N, word) - words);
-}
-
-Settings readSettings(const scene::Settings& given) {
-    scene::SettingsReader reader(given, "setting up method stochastic");
-    Settings s;
-    s.error = static_cast<float>(reader.number("error", 0, 0, 1));
-    s.samples = static_cast<std::uint32_t>(
-        std::stoul(reader.choice("samples", s.isAdaptive() ? "256" : "4",
-                                 {"1", "2", "4", "8", "16", "32", "64", "128", "256", "512",
-                                  "1024"})));
-    s.isNaive = reader.choice("mask", "stratified", {"naive", "stratified"}) == "naive";
-    // In the order of kEstimator... and kSeed...
-    static constexpr const char* kEstimators[] = {"basic", "alpha", "depth", "depth_alpha"};
-    static constexpr const char* kSeeds[] = {"primitive", "object", "depth"};
-    s.estimator = indexOf(
-        reader.choice("estimator", "depth_alpha", {"basic", "alpha", "depth", "depth_alpha"}),
-        kEstimators);
-    s.seed = indexOf(reader.choice("seed", "primitive", {"primitive", "object", "depth"}), kSeeds);
-    s.pattern = static_cast<std::uint32_t>(reader.integer("pattern", 0, 0, 0xffffffffll));
-    s.filter = static_cast<std::uint32_t>(reader.integer("filter", 0, 0, 16));
-    reader.finish();
-    if (s.filter > 0 && s.estimator == shader::kEstimatorBasic)
-        throw inputError("setting up method stochastic", "estimator 'basic'",
-                         "cannot be filtered: its background is noise too; take depth_alpha");
-    if (s.isAdaptive() && s.samples < kLeastAdaptive)
-        throw inputError("setting up method stochastic",
-                         fmt::format("samples {}", s.samples),
-                         fmt::format("with 'error' they are the most that a pixel gets: at least {}",
-                                     kLeastAdaptive));
-    return s;
-}
 
 /// Sums over the passes of an adaptive frame, and which pixels take no more part.
 struct AdaptiveTargets {
@@ -440,33 +387,6 @@ std::map<std::string, std::uint64_t> Stochastic::counters() {
 }
 
 }  // namespace
-
-const MethodInfo& info() {
-    static const MethodInfo kInfo{
-        .name = "stochastic",
-        .summary = "Each layer stops light in a random set of samples; right in expectation, also "
-                   "where media overlap.",
-        .paper = "Enderton, Sintorn, Shirley, Luebke: Stochastic Transparency, 2011",
-        .exactness = Exactness::Approximate,
-        .passes = "2 raster per 16 samples (8 with colours) + 1 resolve",
-        .bytesPerPixel = "34 + 4 S, S <= 16 samples in a pass; 50 + 12 S, S <= 8 with colours; "
-                         "adaptive: 50 more, 66 with colours; filter: 14 more",
-        .limits = "noise; bricks and boxes count as homogeneous inside",
-        .weaknesses = {Weakness::Noise, Weakness::Profile, Weakness::Emission},
-        .settings = {{"samples", "1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024", "4",
-                      "per pixel; with an error at most, and 256 if not given"},
-                     {"error", "0..1", "0",
-                      "standard error (relative above 1) that ends a pixel; 0: all get all samples"},
-                     {"filter", "0..16 pixels", "0",
-                      "radius of a cross-bilateral filter against noise"},
-                     {"mask", "naive, stratified", "stratified",
-                      "samples chosen each by itself, or as even shares"},
-                     {"estimator", "basic, alpha, depth, depth_alpha", "depth_alpha",
-                      "basic and depth are unbiased, *alpha corrects the total"},
-                     {"seed", "primitive, object, depth", "primitive", "what the noise sticks to"},
-                     {"pattern", "0..4294967295", "0", "which noise"}}};
-    return kInfo;
-}
 
 const MethodInfo& Stochastic::info() const { return stochastic::info(); }
 

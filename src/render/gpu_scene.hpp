@@ -8,7 +8,7 @@
 #include <gpu/upload_ring.hpp>
 #include <oit/inputs.hpp>
 #include <render/renderer.hpp>
-#include <scene/camera.hpp>
+#include <render/view.hpp>
 
 #include <shaders/common/frame.h>
 #include <shaders/common/sphere.h>
@@ -17,15 +17,6 @@
 #include <vector>
 
 namespace brume::render {
-
-/// Where a frame is seen from.
-struct View {
-    scene::CameraFrame camera;  ///< of the samples; may stand in front of the scene's (orthographic)
-    double far = 1e6;           ///< m; depth range of an orthographic camera
-};
-
-/// The view of the scene's own camera.
-View makeView(const PreparedScene& scene);
 
 /// What does not depend on the camera is uploaded once; what does, whenever it changes.
 class GpuScene {

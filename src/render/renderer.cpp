@@ -4,10 +4,13 @@
 #include <gpu/device.hpp>
 #include <render/backdrop.hpp>
 #include <render/composer.hpp>
+#include <render/frame_readback.hpp>
+#include <render/frame_report.hpp>
 #include <render/needs.hpp>
 #include <render/opaque_targets.hpp>
 #include <render/renderer.hpp>
 #include <render/shadow_probe.hpp>
+#include <render/surfaced_scene.hpp>
 
 #include <fmt/format.h>
 
@@ -17,76 +20,6 @@
 #include <utility>
 
 namespace brume::render {
-
-namespace {
-
-/// Of methods that bin media to tiles: what they hold for each pixel beside the image, and for each
-/// pair of tile and medium.
-std::string describeMethodBytes(const frame::FrameDescription& frame,
-                                const std::map<std::string, std::uint64_t>& bytes,
-                                const std::map<std::string, std::uint64_t>& counters,
-                                std::uint64_t pixelCount) {
-    const auto lists = bytes.find("pairs"), pairs = counters.find("pairs");
-    if (lists == bytes.end() || pairs == counters.end()) return {};
-    std::uint64_t targets = 0;
-    for (const frame::TargetDescription& target : frame.targets)
-        if (target.isTransient && target.name.starts_with("oit.")) targets += target.bytes;
-    for (const char* kind : {"lists", "listOffsets", "listStates"})
-        if (const auto held = bytes.find(kind); held != bytes.end()) targets += held->second;
-    const auto line = [](const char* name, std::uint64_t count, std::uint64_t parts) {
-        const double share = static_cast<double>(count) / static_cast<double>(parts);
-        return fmt::format("  {:<20} {:.2f}\n", name, share);
-    };
-    return line("methodPerPixel", targets, pixelCount) +
-           line("perPair", lists->second, std::max<std::uint64_t>(pairs->second, 1));
-}
-
-}  // namespace
-namespace {
-
-/// Ribbons and billboards are meshes that face the camera: where effects show such, they are
-/// simulated before the scene is composed, which then has the meshes too.
-struct SurfacedScene {
-    std::optional<PreparedScene> scene;
-    std::unique_ptr<EffectParticles> effects;  // at their times
-    std::vector<scene::Mesh> surfaces;
-    std::size_t stillMeshCount = 0;  // of the scene, before those
-
-    SurfacedScene(gpu::Device& device, gpu::Submitter& submitter, const PreparedScene& prepared,
-                  EffectParticles* previous) {
-        const auto& all = prepared.scene.effects;
-        if (std::none_of(all.begin(), all.end(),
-                         [](const auto& effect) { return effect.effect.surface.has_value(); }))
-            return;
-        scene = prepared;
-        // The composer takes the simulations over by their keys.
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (all[i].key == 0) scene->scene.effects[i].key = ~static_cast<std::uint64_t>(i);
-        effects = std::make_unique<EffectParticles>(device, *scene, previous);
-        submitter.submitAndWait("simulate", [&](gpu::Commands& commands) {
-            effects->recordSimulate(commands);
-        });
-        stillMeshCount = scene->scene.meshes.size();
-        replaceSurfaces(effects->readSurfaces(submitter));
-    }
-
-    void replaceSurfaces(std::vector<scene::Mesh> now) {
-        surfaces = std::move(now);
-        std::vector<scene::Mesh>& meshes = scene->scene.meshes;
-        meshes.resize(stillMeshCount);
-        meshes.insert(meshes.end(), surfaces.begin(), surfaces.end());
-    }
-
-    /// The caller's scene has moved on in time or is seen from elsewhere.
-    void follow(const PreparedScene& prepared) {
-        scene->scene.camera = prepared.scene.camera;
-        scene->scene.image = prepared.scene.image;
-        for (std::size_t i = 0; i < prepared.scene.effects.size(); ++i)
-            scene->scene.effects[i].time = prepared.scene.effects[i].time;
-    }
-};
-
-}  // namespace
 
 struct Renderer::Impl {
     Impl(gpu::Device& device, const PreparedScene& prepared_, const Options& options_,
@@ -117,22 +50,6 @@ struct Renderer::Impl {
         composer.addMethod();
         times = findTimes();
         prepareMethod();
-    }
-
-    /// Room for what a frame is read back into.
-    void makeReadbacks() {
-        const VkExtent2D extent = composer.scene.extent();
-        const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height;
-        if (image.bytes() == 16 * pixels) return;
-        gpu::Device& device = composer.device;
-        image = gpu::Buffer(device, {.name = "render.image_read",
-                                     .bytes = 16 * pixels,
-                                     .memory = gpu::MemoryKind::Readback});
-        if (!options.triangleHashes) return;
-        triangles = gpu::Buffer(device, {.name = "render.triangles", .bytes = 4 * pixels});
-        trianglesRead = gpu::Buffer(device, {.name = "render.triangles_read",
-                                             .bytes = 4 * pixels,
-                                             .memory = gpu::MemoryKind::Readback});
     }
 
     std::vector<double> findTimes() const {
@@ -335,14 +252,8 @@ struct Renderer::Impl {
     }
 
     void declareFrame(frame::FrameBuilder& frame) {
-        makeReadbacks();
         const oit::Inputs inputs = declareImage(frame);
-        if (options.triangleHashes) {
-            composer.opaque.declareTriangles(frame, composer.scene, inputs, triangles);
-            frame.addReadback("render.triangles_read", frame.importBuffer(triangles),
-                              trianglesRead);
-        }
-        frame.addReadback("render.image_read", inputs.result, image);
+        readback.declare(frame, composer.device, composer.scene, composer.opaque, inputs);
     }
 
     void declareShownFrame(frame::FrameBuilder& frame, const gpu::Image& target) {
@@ -358,28 +269,6 @@ struct Renderer::Impl {
 
     /// Executes the frame; what it cost and counted.
     Result run(frame::FrameBuilder& frame);
-
-    Image readImage() const {
-        const auto texels = image.mappedAs<vec4>();
-        const VkExtent2D extent = composer.scene.extent();
-        Image samples(static_cast<int>(extent.width), static_cast<int>(extent.height));
-        for (std::size_t i = 0; i < samples.pixels.size(); ++i) samples.pixels[i] = vec3(texels[i]);
-        const int n = prepared.scene.image.supersample;
-        return n > 1 ? downsample(samples, n) : samples;
-    }
-
-    std::vector<std::uint32_t> readTriangles() const {
-        if (!options.triangleHashes) return {};
-        const int n = prepared.scene.image.supersample;
-        const int width = prepared.scene.image.width, height = prepared.scene.image.height;
-        const auto samples = trianglesRead.mappedAs<std::uint32_t>();
-        std::vector<std::uint32_t> sums(static_cast<std::size_t>(width) * height);
-        for (int y = 0; y < height * n; ++y)
-            for (int x = 0; x < width * n; ++x)
-                sums[static_cast<std::size_t>(y / n) * width + x / n] +=
-                    samples[static_cast<std::size_t>(y) * width * n + x];
-        return sums;
-    }
 
     /// Adds what births have come to; births without room are warned of once.
     void countParticles(std::map<std::string, std::uint64_t>& counters) {
@@ -429,7 +318,7 @@ struct Renderer::Impl {
     std::vector<SizedMethod> otherSizes;  // oldest first
     std::optional<Backdrop> shown;
     VkFormat shownFormat = VK_FORMAT_UNDEFINED;
-    gpu::Buffer image, triangles, trianglesRead;
+    FrameReadback readback{options.triangleHashes};
     gpu::Image sceneDepth;
 };
 
@@ -448,25 +337,8 @@ Result Renderer::Impl::run(frame::FrameBuilder& frame) {
     Result result;
     result.wallMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    for (const gpu::ScopeTime& scope : timers.read()) {
-        const auto same = std::find_if(result.passes.begin(), result.passes.end(),
-                                       [&](const PassTime& p) { return p.name == scope.name; });
-        if (same != result.passes.end()) {
-            same->timeMs += scope.timeMs;
-            same->fragments += scope.fragments;
-        } else {
-            result.passes.push_back({scope.name, scope.timeMs, 0, scope.fragments});
-        }
-    }
-    const std::map<std::string, std::uint64_t> bytesByPass = frame.passBytes();
-    for (PassTime& pass : result.passes)
-        if (const auto found = bytesByPass.find(pass.name); found != bytesByPass.end())
-            pass.bytes = found->second;
-    // The frame proper: neither the comparison's pass nor what takes the image away.
-    for (const PassTime& pass : result.passes)
-        if (!pass.name.starts_with("render.triangles") && !pass.name.ends_with("_read") &&
-            pass.name != "render.composite")
-            result.timeMs += pass.timeMs;
+    result.passes = collectPasses(frame, timers.read());
+    result.timeMs = sumFrameMs(result.passes);
     result.bytes = bytes();
     result.counters = composer.method->counters();
     countParticles(result.counters);
@@ -483,8 +355,9 @@ Result Renderer::renderFrame() {
     frame::FrameBuilder frame(mImpl->pool);
     mImpl->declareFrame(frame);
     Result result = mImpl->run(frame);
-    result.image = mImpl->readImage();
-    result.triangles = mImpl->readTriangles();
+    const int supersample = mImpl->prepared.scene.image.supersample;
+    result.image = mImpl->readback.readImage(supersample);
+    result.triangles = mImpl->readback.readTriangles(supersample);
     return result;
 }
 

@@ -38,7 +38,6 @@ struct Stack {
 
 class LinkedList : public FamilyTest {
   protected:
-    LinkedList() { mKeepsPipelines = true; }
     void expectTruth(const Stack& stack, const scene::Settings& settings = {}) {
         const vec3 pixel = renderWith(stack.scene, "linked_list", settings).at(1, 1);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], stack.truth[c], 1e-6);

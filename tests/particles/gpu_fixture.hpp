@@ -17,7 +17,8 @@ class GpuSimulationTest : public testing::Test {
         sDevice = gpu::Device::create({.device = {},
                                        .validate = true,
                                        .synchronizationValidation = true,
-                                       .pipelineCacheFile = {}},
+                                       .pipelineCacheFile = {},
+                                       .keepPipelines = true},
                                       Log());
         sSubmitter = std::make_unique<gpu::Submitter>(*sDevice);
     }

@@ -17,7 +17,7 @@ Profile profileOf(Profiles profiles, int i) {
 /// `count` spheres that all contain the origin, of extinctions spread over decades.
 TestScene makePile(int count, double minExtinction, double maxExtinction, Profiles profiles,
                    std::uint64_t seed) {
-    TestScene s(32, 32);
+    TestScene s(20, 20);  // four hundred rays, each through nearly all of the spheres
     Random random(seed);
     for (int i = 0; i < count; ++i) {
         const double extinction =

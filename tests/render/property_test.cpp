@@ -163,8 +163,6 @@ std::vector<render::Options> exactMethods() {
 
 class Properties : public RenderTest {
   protected:
-    Properties() { mKeepsPipelines = true; }  // a scene takes ten times as long without
-
     /// The names of the methods that are off by more than 1e-5, in parts of the brightest radiance
     /// above 1, or not finite.
     std::string findWrong(const render::PreparedScene& prepared) {

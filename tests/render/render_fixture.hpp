@@ -78,6 +78,9 @@ struct Difference {
 
 class RenderTest : public GpuTest {
   protected:
+    // A test renders several times with one device, as the command line does; making pipelines
+    // anew each time would take longer than all else.
+    RenderTest() { mKeepsPipelines = true; }
     render::Result render(const render::PreparedScene& scene,
                           render::Options options = {.method = "linked_list"});
     std::uint64_t hashOf(const render::PreparedScene& scene, const scene::Settings& settings = {});

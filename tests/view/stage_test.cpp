@@ -25,6 +25,7 @@ constexpr const char* kMethod = "sorted";  // where it does not matter: its shad
 
 class StageTest : public test::GpuTest {
   protected:
+    StageTest() { mKeepsPipelines = true; }  // as the viewer does
     void SetUp() override {
         GpuTest::SetUp();
         mStage = std::make_unique<Stage>(device(), mQuiet, mFolder / "scene.json");
