@@ -67,19 +67,6 @@ VkRenderingAttachmentInfo depthInfo(const DepthAttachment& depth) {
     return info;
 }
 
-VkDescriptorType descriptorType(BindingType type) {
-    switch (type) {
-        case BindingType::UniformBuffer:
-            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        case BindingType::StorageImage:
-            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        case BindingType::SampledImage:
-            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        default:
-            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    }
-}
-
 bool isSame(const VkDescriptorBufferInfo& a, const VkDescriptorBufferInfo& b) {
     return a.buffer == b.buffer && a.offset == b.offset && a.range == b.range;
 }
@@ -146,7 +133,7 @@ void Commands::bind(std::uint32_t binding, const BufferRange& range, std::uint32
     Bound bound;
     bound.binding = binding;
     bound.element = element;
-    bound.type = descriptorType(declared.type);
+    bound.type = toVulkan(declared.type);
     bound.buffer = {range.buffer->handle(), range.offset, bytes};
     setBound(bound);
 }

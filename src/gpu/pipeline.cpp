@@ -12,19 +12,6 @@ namespace {
 
 constexpr const char* kDoing = "creating pipeline";
 
-VkDescriptorType toVulkan(BindingType type) {
-    switch (type) {
-        case BindingType::UniformBuffer:
-            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        case BindingType::StorageImage:
-            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        case BindingType::SampledImage:
-            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        default:
-            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    }
-}
-
 // Specialization values laid out for Vulkan; must stay where it is while in use.
 struct Specialization {
     std::vector<VkSpecializationMapEntry> entries;
@@ -158,6 +145,19 @@ struct FixedState {
 };
 
 }  // namespace
+
+VkDescriptorType toVulkan(BindingType type) {
+    switch (type) {
+        case BindingType::UniformBuffer:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BindingType::StorageImage:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case BindingType::SampledImage:
+            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        default:
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+}
 
 Blend Blend::custom(VkBlendFactor source, VkBlendFactor target) {
     Blend blend;

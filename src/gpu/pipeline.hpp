@@ -17,6 +17,7 @@ enum class BindingType {
     StorageImage,  ///< in layout GENERAL
     SampledImage   ///< with its sampler (GLSL sampler2D, sampler3D, ...)
 };
+VkDescriptorType toVulkan(BindingType type);
 
 struct Binding {
     std::uint32_t number = 0;  ///< layout(set = 0, binding = number)
