@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// .nvdb files. Every offset of the tree is checked before it is followed, because NanoVDB itself
-// follows them blindly; so the nodes are read here and not through its accessors.
+// .nvdb files: segments, headers and compression.
 #include <volumes/file_reader.hpp>
 #include <volumes/grid_reader.hpp>
+#include <volumes/nvdb_tree.hpp>
 
 #include <blosc.h>
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 namespace brume::volumes {
 namespace {
@@ -21,7 +20,6 @@ constexpr std::uint32_t kMaxName = 1 << 16;
 constexpr std::uint64_t kBloscChunk = 1ull << 30;
 /// No codec makes data smaller than this; what claims more is damaged.
 constexpr std::uint64_t kGreatestRatio = 1100;
-constexpr std::uint64_t kAlignment = 32;
 
 enum class Codec : std::uint16_t { None = 0, Zip = 1, Blosc = 2 };
 
@@ -53,40 +51,6 @@ struct Entry {
     std::string name;
     Codec codec = Codec::None;
     std::uint64_t position = 0;
-};
-
-[[noreturn]] void throwDamaged(const std::string& what) {
-    throw MalformedFile("the file is damaged: " + what);
-}
-
-/// Owns a grid's bytes, aligned as its nodes expect, and hands out parts of it by checked offset.
-class GridBuffer {
-  public:
-    explicit GridBuffer(std::uint64_t bytes)
-        : mBytes(bytes),
-          mData(static_cast<char*>(
-              std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment))) {
-        if (!mData) throw std::bad_alloc();
-    }
-
-    char* data() { return mData.get(); }
-    std::uint64_t size() const { return mBytes; }
-
-    /// The T at a byte offset, with `extra` bytes behind it.
-    template <typename T>
-    const T& at(std::uint64_t offset, std::uint64_t extra = 0) const {
-        if (offset % kAlignment != 0 || sizeof(T) > mBytes || extra > mBytes - sizeof(T) ||
-            offset > mBytes - sizeof(T) - extra)
-            throwDamaged(fmt::format("a node at offset {} of {}", offset, mBytes));
-        return *reinterpret_cast<const T*>(mData.get() + offset);
-    }
-
-  private:
-    struct Free {
-        void operator()(char* p) const { std::free(p); }
-    };
-    std::uint64_t mBytes;
-    std::unique_ptr<char, Free> mData;
 };
 
 std::string typeName(nanovdb::GridType type) {
@@ -128,31 +92,31 @@ std::string className(nanovdb::GridClass gridClass) {
     }
 }
 
-void unzip(FileReader& file, GridBuffer& buffer) {
+void unzip(FileReader& file, NvdbBuffer& buffer) {
     const auto bytes = file.read<std::uint64_t>();
     if (bytes > file.remaining() || buffer.size() / kGreatestRatio > bytes)
-        throwDamaged("the size of compressed data");
+        throwDamagedNvdb("the size of compressed data");
     std::vector<char> compressed(bytes);
     file.read(compressed.data(), bytes);
     uLongf count = buffer.size();
     const int status = uncompress(reinterpret_cast<Bytef*>(buffer.data()), &count,
                                   reinterpret_cast<const Bytef*>(compressed.data()), bytes);
-    if (status != Z_OK || count != buffer.size()) throwDamaged("compressed data");
+    if (status != Z_OK || count != buffer.size()) throwDamagedNvdb("compressed data");
 }
 
-void unblosc(FileReader& file, GridBuffer& buffer) {
+void unblosc(FileReader& file, NvdbBuffer& buffer) {
     for (std::uint64_t done = 0; done < buffer.size();) {
         const std::uint64_t chunk = std::min(buffer.size() - done, kBloscChunk);
         const auto bytes = file.read<std::uint64_t>();
         if (bytes > file.remaining() || chunk / kGreatestRatio > bytes)
-            throwDamaged("the size of compressed data");
+            throwDamagedNvdb("the size of compressed data");
         std::vector<char> compressed(bytes);
         file.read(compressed.data(), bytes);
         std::size_t count = 0;
         if (blosc_cbuffer_validate(compressed.data(), bytes, &count) < 0 || count != chunk ||
             blosc_decompress_ctx(compressed.data(), buffer.data() + done, chunk, 1) !=
                 static_cast<int>(chunk))
-            throwDamaged("compressed data");
+            throwDamagedNvdb("compressed data");
         done += chunk;
     }
 }
@@ -164,131 +128,6 @@ void skipData(FileReader& file, const Entry& entry) {
         chunks = std::max<std::uint64_t>(1, (entry.head.gridSize + kBloscChunk - 1) / kBloscChunk);
     for (; chunks > 0; --chunks) file.skip(file.read<std::uint64_t>());
 }
-
-/// Walks the tree of one grid of floats of any precision.
-template <typename BuildT>
-class TreeWalk {
-  public:
-    TreeWalk(const GridBuffer& buffer, LoadedGrid& loaded) : mBuffer(buffer), mLoaded(loaded) {}
-
-    void run() {
-        constexpr std::uint64_t kTree = sizeof(nanovdb::GridData);
-        const auto& tree = mBuffer.template at<nanovdb::TreeData<3>>(kTree);
-        const std::uint64_t rootOffset =
-            offset(kTree, static_cast<std::int64_t>(tree.mNodeOffset[3]));
-        std::uint64_t tableBytes = 0;
-        tableBytes = mBuffer.template at<Root>(rootOffset).mTableSize * sizeof(RootTile);
-        const Root& root = mBuffer.template at<Root>(rootOffset, tableBytes);
-        mLoaded.info.background = static_cast<double>(root.mBackground);
-        mLoaded.field.background = mLoaded.info.background;
-        std::set<std::uint64_t> keys;
-        for (std::uint32_t i = 0; i < root.mTableSize; ++i) {
-            const RootTile& tile = *root.tile(i);
-            if (!keys.insert(tile.key).second) throwDamaged("two nodes have one origin");
-            const ivec3 origin = toIvec(tile.origin());
-            if (tile.child != 0)
-                visitInner<Upper, 5>(offset(rootOffset, tile.child), origin);
-            else if (tile.state)
-                addTile(origin, 4096, static_cast<double>(tile.value));
-        }
-        finish();
-    }
-
-  private:
-    using Root = typename nanovdb::NanoRoot<BuildT>::DataType;
-    using RootTile = typename Root::Tile;
-    using Upper = typename nanovdb::NanoUpper<BuildT>::DataType;
-    using Lower = typename nanovdb::NanoLower<BuildT>::DataType;
-    using Leaf = typename nanovdb::NanoLeaf<BuildT>::DataType;
-
-    static ivec3 toIvec(const nanovdb::Coord& c) { return {c[0], c[1], c[2]}; }
-
-    static std::uint64_t offset(std::uint64_t base, std::int64_t relative) {
-        return base + static_cast<std::uint64_t>(relative);  // out of range is found by at()
-    }
-
-    template <typename Node, int kLog2Edge>
-    void visitInner(std::uint64_t at, const ivec3& origin) {
-        const Node& node = mBuffer.template at<Node>(at);
-        // Nodes are stored once: a damaged table that refers to one many times would never end.
-        mNodeBytes += sizeof(Node);
-        checkTotal();
-        constexpr int kEdge = 1 << kLog2Edge, kChildEdge = kLog2Edge == 5 ? 128 : 8;
-        for (std::uint32_t i = 0; i < kEdge * kEdge * kEdge; ++i) {
-            const bool child = node.mChildMask.isOn(i);
-            if (!child && !node.mValueMask.isOn(i)) continue;
-            const int n = static_cast<int>(i);
-            const ivec3 at3 =
-                origin + kChildEdge * ivec3(n >> (2 * kLog2Edge), (n >> kLog2Edge) & (kEdge - 1),
-                                            n & (kEdge - 1));
-            if (!child)
-                addTile(at3, kChildEdge, static_cast<double>(node.mTable[i].value));
-            else if constexpr (kLog2Edge == 5)
-                visitInner<Lower, 4>(offset(at, node.mTable[i].child), at3);
-            else
-                visitLeaf(offset(at, node.mTable[i].child), at3);
-        }
-    }
-
-    void visitLeaf(std::uint64_t at, const ivec3& origin) {
-        const Leaf* leaf = &mBuffer.template at<Leaf>(at);
-        if constexpr (std::is_same_v<BuildT, nanovdb::FpN>)
-            leaf = &mBuffer.template at<Leaf>(at, leaf->bitWidth() * 64u);
-        mNodeBytes += sizeof(Leaf);
-        checkTotal();
-        ++mLoaded.info.leafCount;
-        VoxelBlock block;
-        block.origin = origin;
-        block.values.fill(0);
-        ivec3 lo(8), hi(-1);
-        for (std::uint32_t i = 0; i < block.values.size(); ++i) {
-            if (!leaf->mValueMask.isOn(i)) continue;
-            const double value = static_cast<double>(leaf->getValue(i));
-            block.values[i] = narrow(value);
-            mRange.add(value);
-            const int n = static_cast<int>(i);
-            const ivec3 p{n >> 6, (n >> 3) & 7, n & 7};
-            lo = glm::min(lo, p);
-            hi = glm::max(hi, p);
-            ++mLoaded.info.activeVoxels;
-        }
-        if (hi.x < 0) return;
-        extend(origin + lo, origin + hi);
-        mLoaded.field.blocks.push_back(block);
-    }
-
-    void addTile(const ivec3& lo, int edge, double value) {
-        const auto voxels = static_cast<std::uint64_t>(edge);
-        mLoaded.info.activeVoxels += voxels * voxels * voxels;
-        ++mLoaded.info.activeTileCount;
-        mRange.add(value);
-        extend(lo, lo + (edge - 1));
-        mLoaded.field.tiles.push_back({lo, edge, narrow(value)});
-    }
-
-    void extend(const ivec3& lo, const ivec3& hi) {
-        mLo = glm::min(mLo, lo);
-        mHi = glm::max(mHi, hi);
-    }
-
-    void checkTotal() const {
-        if (mNodeBytes > mBuffer.size()) throwDamaged("more nodes than fit into the grid");
-    }
-
-    void finish() {
-        mLoaded.info.minValue = mRange.lo();
-        mLoaded.info.maxValue = mRange.hi();
-        if (mLoaded.info.activeVoxels == 0) return;
-        mLoaded.info.lo = mLo;
-        mLoaded.info.hi = mHi;
-    }
-
-    const GridBuffer& mBuffer;
-    LoadedGrid& mLoaded;
-    std::uint64_t mNodeBytes = 0;
-    ValueRange mRange;
-    ivec3 mLo{std::numeric_limits<int>::max()}, mHi{std::numeric_limits<int>::min()};
-};
 
 class NvdbReader final : public GridReader {
   public:
@@ -313,10 +152,10 @@ class NvdbReader final : public GridReader {
         loaded.info.index = mHeadings[ordinal].index;
         loaded.info.type = mHeadings[ordinal].type;
         loaded.info.gridClass = className(entry.head.gridClass);
-        const GridBuffer buffer = readBuffer(entry);
+        const NvdbBuffer buffer = readBuffer(entry);
         const auto& data = buffer.at<nanovdb::GridData>(0);
         if (data.mMagic != NANOVDB_MAGIC_NUMBER || data.mGridType != entry.head.type)
-            throwDamaged("the grid's own header disagrees with the file's");
+            throwDamagedNvdb("the grid's own header disagrees with the file's");
         readTransform(data.mMap, loaded.info);
         if (entry.head.gridClass == nanovdb::GridClass::LevelSet)
             loaded.info.refusal = "it is a level set, whose values are distances and no density";
@@ -334,12 +173,12 @@ class NvdbReader final : public GridReader {
         if (major != NANOVDB_MAJOR_VERSION_NUMBER)
             throw MalformedFile(fmt::format("the file has NanoVDB version {}, only {} can be read",
                                             major, NANOVDB_MAJOR_VERSION_NUMBER));
-        if (head.codec > Codec::Blosc) throwDamaged("an unknown compression");
+        if (head.codec > Codec::Blosc) throwDamagedNvdb("an unknown compression");
         const std::size_t first = mEntries.size();
         for (int i = 0; i < head.gridCount; ++i) {
             Entry entry;
             entry.head = mFile.read<GridHead>();
-            if (entry.head.nameSize > kMaxName) throwDamaged("a name is too long");
+            if (entry.head.nameSize > kMaxName) throwDamagedNvdb("a name is too long");
             entry.name.resize(entry.head.nameSize);
             mFile.read(entry.name.data(), entry.name.size());
             entry.name.resize(std::min(entry.name.find('\0'), entry.name.size()));
@@ -352,16 +191,16 @@ class NvdbReader final : public GridReader {
         }
     }
 
-    GridBuffer readBuffer(const Entry& entry) {
+    NvdbBuffer readBuffer(const Entry& entry) {
         const std::uint64_t bytes = entry.head.gridSize;
         if (bytes > kMaxGridBytes)
             throw MalformedFile(fmt::format("grid \"{}\" has {} MiB, at most {} MiB can be read",
                                             entry.name, bytes >> 20, kMaxGridBytes >> 20));
         const std::uint64_t compressed = mFile.size() - entry.position;
         if (bytes < sizeof(nanovdb::GridData) || bytes / kGreatestRatio > compressed)
-            throwDamaged("the size of a grid");
+            throwDamagedNvdb("the size of a grid");
         mFile.seek(entry.position);
-        GridBuffer buffer(bytes);
+        NvdbBuffer buffer(bytes);
         switch (entry.codec) {
             case Codec::None:
                 mFile.read(buffer.data(), bytes);
@@ -385,24 +224,8 @@ class NvdbReader final : public GridReader {
         }
     }
 
-    static void readTree(const Entry& entry, const GridBuffer& buffer, LoadedGrid& loaded) {
-        using nanovdb::GridType;
-        switch (entry.head.type) {
-            case GridType::Float:
-                return TreeWalk<float>(buffer, loaded).run();
-            case GridType::Double:
-                return TreeWalk<double>(buffer, loaded).run();
-            case GridType::Fp4:
-                return TreeWalk<nanovdb::Fp4>(buffer, loaded).run();
-            case GridType::Fp8:
-                return TreeWalk<nanovdb::Fp8>(buffer, loaded).run();
-            case GridType::Fp16:
-                return TreeWalk<nanovdb::Fp16>(buffer, loaded).run();
-            case GridType::FpN:
-                return TreeWalk<nanovdb::FpN>(buffer, loaded).run();
-            default:
-                break;
-        }
+    static void readTree(const Entry& entry, const NvdbBuffer& buffer, LoadedGrid& loaded) {
+        if (readNvdbTree(entry.head.type, buffer, loaded)) return;
         loaded.info.activeVoxels = entry.head.voxelCount;
         loaded.info.leafCount = entry.head.nodeCount[0];
         for (int axis = 0; axis < 3; ++axis) {
