@@ -165,10 +165,11 @@ void GpuPopulation::makeBuffers(gpu::Device& device) {
 std::array<std::uint64_t, kStateWords + 2> GpuPopulation::stateOffsets() const {
     std::array<std::uint64_t, kStateWords + 2> offsets{};
     // Bindings begin at multiples of 256 bytes, and none is empty.
-    const std::uint64_t all = std::uint64_t{mEffect.capacity} * mInstanceCount;
+    const std::uint64_t all =
+        std::max<std::uint64_t>(std::uint64_t{mEffect.capacity} * mInstanceCount, 1);
     for (std::size_t i = 0; i <= kStateWords; ++i) {
-        const std::uint64_t bytes = i < kStateWords      ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint64_t)
-                                    : mEffect.hasStrands ? std::max<std::uint64_t>(all, 1) * sizeof(std::uint32_t)
+        const std::uint64_t bytes = i < kStateWords      ? all * sizeof(std::uint64_t)
+                                    : mEffect.hasStrands ? all * sizeof(std::uint32_t)
                                                          : 1;
         offsets[i + 1] = offsets[i] + (bytes + 255) / 256 * 256;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a GpuPopulation to the host and back: for checkpoints, for the reference and for tests.
+// The state of a GpuPopulation to the host and back: for checkpoints and for the reference.
 #include <core/assert.hpp>
 #include <particles/gpu_population.hpp>
 
