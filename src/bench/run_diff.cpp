@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bench/run_diff.hpp>
+#include <bench/statistics.hpp>
 #include <core/error.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace brume::bench {
@@ -16,6 +19,9 @@ constexpr int kMostDepth = 16;
 
 /// Below these, growth is rounding or bookkeeping.
 constexpr double kLeastError = 1e-6, kLeastBytes = 65536, kLeastMs = 0.02;
+
+/// Fewer rows say nothing about how far rows scatter.
+constexpr std::size_t kLeastRows = 20;
 
 Json parse(const std::string& text, const std::string& name) {
     // What is nested deeper than results are is left out: copies would need the stack for it.
@@ -75,40 +81,81 @@ struct Timing {
     }
 };
 
+/// A row of both runs.
+struct Pair {
+    std::string key;
+    const Json* before;
+    const Json* after;
+
+    bool hasTimes() const {
+        const bool isShort = numberAt(*before, "timeMs", "median") < kLeastMs;
+        return !isShort && numberAt(*after, "timeMs", "median") > 0;
+    }
+    bool hasYardsticks() const {
+        return before->contains("yardstickMs") && after->contains("yardstickMs");
+    }
+    /// Logarithm of how many times as long the row takes.
+    double growth(bool isScaled) const {
+        return std::log(Timing(*after, isScaled).median / Timing(*before, isScaled).median);
+    }
+};
+
+/// How far times change from row to row about the change that all have in common: the standard
+/// deviation of growth(), from the median deviation, which a few true changes do not move.
+double findScatter(const std::vector<Pair>& pairs, bool isScaled) {
+    std::vector<double> growths;
+    for (const Pair& pair : pairs)
+        if (pair.hasTimes() && (pair.hasYardsticks() || !isScaled)) {
+            const double growth = pair.growth(isScaled);
+            if (std::isfinite(growth)) growths.push_back(growth);
+        }
+    if (growths.size() < kLeastRows) return 0;
+    const double common = percentile(growths, 0.5);
+    for (double& growth : growths) growth = std::abs(growth - common);
+    constexpr double kDeviationPerMedian = 1.4826;  // of a normal distribution
+    return kDeviationPerMedian * percentile(growths, 0.5);
+}
+
 class Differ {
   public:
-    Differ(double threshold, RunDiff& diff) : mThreshold(threshold), mDiff(diff) {}
+    Differ(double threshold, const std::vector<Pair>& pairs, RunDiff& diff)
+        : mThreshold(threshold), mDiff(diff) {
+        diff.scatter = findScatter(pairs, false);
+        diff.scaledScatter = findScatter(pairs, true);
+    }
 
-    void compare(const std::string& key, const Json& before, const Json& after) {
+    void compare(const Pair& pair) {
+        const Json &before = *pair.before, &after = *pair.after;
         ++mDiff.comparedRows;
         const bool failedBefore = before.contains("failure"), fails = after.contains("failure");
         if (fails && !failedBefore)
-            mDiff.regressions.push_back(key + ": fails: " + textAt(after, "failure", "without a word"));
-        if (failedBefore && !fails) mDiff.gains.push_back(key + ": fails no longer");
+            mDiff.regressions.push_back(pair.key + ": fails: " + textAt(after, "failure", "without a word"));
+        if (failedBefore && !fails) mDiff.gains.push_back(pair.key + ": fails no longer");
         if (fails || failedBefore) return;
-        compareTimes(key, before, after);
-        compareFigures(key, before, after);
+        if (pair.hasTimes()) compareTimes(pair);
+        compareFigures(pair.key, before, after);
     }
 
   private:
-    void compareTimes(const std::string& key, const Json& before, const Json& after) {
-        const bool isScaled = before.contains("yardstickMs") && after.contains("yardstickMs");
-        const Timing a(before, isScaled), b(after, isScaled);
-        if (!(a.median > 0) || !(b.median > 0)) return;
-        if (numberAt(before, "timeMs", "median") < kLeastMs) return;
-        const double ratio = b.median / a.median;
-        const std::string line = fmt::format(
-            "{}: {:.2f} times as long{} ({:.3g} ms, was {:.3g} ms)", key, ratio,
-            isScaled ? " by the yardstick" : "", numberAt(after, "timeMs", "median"),
-            numberAt(before, "timeMs", "median"));
+    void compareTimes(const Pair& pair) {
+        const bool isScaled = pair.hasYardsticks();
+        const Timing a(*pair.before, isScaled), b(*pair.after, isScaled);
         // A yardstick that was disturbed alone is no evidence: the times as they are must agree.
-        const Timing rawA(before, false), rawB(after, false);
-        if (isSlower(a, b) && isSlower(rawA, rawB)) mDiff.regressions.push_back(line);
-        if (isSlower(b, a) && isSlower(rawB, rawA)) mDiff.gains.push_back(line);
+        const Timing rawA(*pair.before, false), rawB(*pair.after, false);
+        const std::string line =
+            fmt::format("{}: {:.2f} times as long{} ({:.3g} ms, was {:.3g} ms)", pair.key,
+                        b.median / a.median, isScaled ? " by the yardstick" : "", rawB.median,
+                        rawA.median);
+        const double scatter = isScaled ? mDiff.scaledScatter : mDiff.scatter;
+        if (isSlower(a, b, scatter) && isSlower(rawA, rawB, mDiff.scatter))
+            mDiff.regressions.push_back(line);
+        if (isSlower(b, a, scatter) && isSlower(rawB, rawA, mDiff.scatter))
+            mDiff.gains.push_back(line);
     }
 
-    bool isSlower(const Timing& before, const Timing& after) const {
-        return after.median > before.median * (1 + mThreshold) &&
+    /// Of some hundred rows that scatter, some go as far as three deviations.
+    bool isSlower(const Timing& before, const Timing& after, double scatter) const {
+        return after.median > before.median * std::max(1 + mThreshold, std::exp(3 * scatter)) &&
                after.lo > before.hi * (1 + 0.5 * mThreshold);
     }
 
@@ -186,14 +233,16 @@ RunDiff diffRuns(const std::string& oldJson, const std::string& oldName,
     };
     if (device(before) != device(after))
         diff.notes.push_back("other devices: " + device(before) + ", then " + device(after));
-    Differ differ(threshold, diff);
+    std::vector<Pair> pairs;
     for (const auto& [key, row] : newRows) {
         const auto found = oldRows.find(key);
         if (found == oldRows.end())
             diff.notes.push_back(key + ": only in " + newName);
         else
-            differ.compare(key, found->second, row);
+            pairs.push_back({key, &found->second, &row});
     }
+    Differ differ(threshold, pairs, diff);
+    for (const Pair& pair : pairs) differ.compare(pair);
     for (const auto& [key, row] : oldRows)
         if (!newRows.contains(key)) diff.notes.push_back(key + ": only in " + oldName);
     return diff;
@@ -201,6 +250,9 @@ RunDiff diffRuns(const std::string& oldJson, const std::string& oldName,
 
 std::string formatDiff(const RunDiff& diff) {
     std::string text = fmt::format("{} rows in both runs\n", diff.comparedRows);
+    if (diff.scaledScatter > 0)
+        text += fmt::format("times scatter by {:.0f} % from row to row, by the yardstick {:.0f} %\n",
+                            100 * diff.scatter, 100 * diff.scaledScatter);
     appendList("worse beyond noise", diff.regressions, text);
     appendList("better beyond noise", diff.gains, text);
     appendList("to note", diff.notes, text);

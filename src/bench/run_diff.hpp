@@ -13,12 +13,16 @@ struct RunDiff {
     std::vector<std::string> gains;
     std::vector<std::string> notes;  ///< rows of one run only, other devices, other images
     int comparedRows = 0;
+    /// Standard deviation of the logarithm of how times have changed, about the change that all rows
+    /// have in common: as they are, and by the yardstick. 0 where rows are few.
+    double scatter = 0, scaledScatter = 0;
 };
 
 /// Two documents of toJson(Results). Times are compared in units of the yardstick that was measured
 /// in the same rounds, which takes out most of what else the machine did. A row is a regression if
-/// * its time has grown by more than the share `threshold`, both as it is and by the yardstick, and the
-///   ranges p05..p95 of both runs do not overlap even when widened by half the threshold, or
+/// * its time has grown by more than the share `threshold` and by more than three times what rows
+///   scatter, both as it is and by the yardstick, and the ranges p05..p95 of both runs do not overlap even
+///   when widened by half the threshold, or
 /// * its rmse or its bytes have grown by more than the threshold, or
 /// * it has failed, or has pixels that are not finite, where it had not.
 /// Throws an input Error for text that is not such a document; `oldName` and `newName` are for it.

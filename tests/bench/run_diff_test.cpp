@@ -6,6 +6,8 @@
 #include <bench/run_diff.hpp>
 #include <core/error.hpp>
 
+#include <cmath>
+
 namespace brume::bench {
 namespace {
 
@@ -53,6 +55,31 @@ TEST(RunDiff, AMachineThatIsSlowerAsAWhole_IsNoRegression) {
     EXPECT_TRUE(diff(makeRow(10, 0.02, 10), makeRow(10, 0.02, 5)).regressions.empty())
         << "a yardstick alone is no evidence";
     EXPECT_EQ(diff(makeRow(10, 0.02, 10), makeRow(18, 0.02, 10)).regressions.size(), 1u);
+}
+
+/// Rows that have become slower by factors between 1 / `most` and `most`, and one by `last`.
+RunDiff diffOfMany(double most, double last) {
+    Results before, after;
+    constexpr int kCount = 40;
+    for (int i = 0; i <= kCount; ++i) {
+        Row row = makeRow(10);
+        row.scene = "s" + std::to_string(i);
+        before.frames.push_back({.row = row});
+        const double factor = i < kCount ? std::pow(most, 2.0 * i / (kCount - 1) - 1) : last;
+        Row changed = makeRow(10 * factor);
+        changed.scene = row.scene;
+        after.frames.push_back({.row = changed});
+    }
+    return diffRuns(toJson(before), "old", toJson(after), "new", 0.25);
+}
+
+TEST(RunDiff, WhereAllRowsScatter_AChangeHasToStandOut) {
+    const RunDiff calm = diffOfMany(1.05, 1.6), wild = diffOfMany(1.5, 1.6);
+    EXPECT_EQ(calm.regressions.size(), 1u);
+    EXPECT_TRUE(wild.regressions.empty()) << formatDiff(wild);
+    EXPECT_GT(wild.scatter, 0.2);
+    EXPECT_EQ(diffOfMany(1.5, 5).regressions.size(), 1u) << "stands out";
+    EXPECT_EQ(diff(makeRow(10), makeRow(16)).scatter, 0) << "one row has none";
 }
 
 TEST(RunDiff, ErrorBytesAndFailures_AreRegressionsToo) {
