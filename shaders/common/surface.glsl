@@ -39,7 +39,7 @@ struct SurfacePoint {
     bool isFront;
 };
 
-Real findLinear(Real3 place, vec4 function, vec4 functionLo) {
+Real linearAt(Real3 place, vec4 function, vec4 functionLo) {
     return dot(makeReal(function.xyz, functionLo.xyz), place) +
            makeReal(function.w, functionLo.w);
 }
@@ -74,8 +74,8 @@ SurfacePoint findSurfacePoint() {
     point.uv = Real2(0);
     point.color = vec4(1);
     if (kTextured) {
-        point.uv = Real2(findLinear(position, textureU, textureULo),
-                         findLinear(position, textureV, textureVLo));
+        point.uv = Real2(linearAt(position, textureU, textureULo),
+                         linearAt(position, textureV, textureVLo));
         point.color = sampleTexture(colorTexture, point.uv);
     }
     if (kTextured && point.color.a * material.coverage < point.material.alphaCutoff) discard;

@@ -20,6 +20,9 @@ constexpr int kMostDepth = 16;
 /// Below these, growth is rounding or bookkeeping.
 constexpr double kLeastError = 1e-6, kLeastBytes = 65536, kLeastMs = 0.02;
 
+/// No scatter excuses more: a change to half of all rows would scatter them as well.
+constexpr double kMostNoise = 2;
+
 /// Fewer rows say nothing about how far rows scatter.
 constexpr std::size_t kLeastRows = 20;
 
@@ -155,7 +158,8 @@ class Differ {
 
     /// Of some hundred rows that scatter, some go as far as three deviations.
     bool isSlower(const Timing& before, const Timing& after, double scatter) const {
-        return after.median > before.median * std::max(1 + mThreshold, std::exp(3 * scatter)) &&
+        const double noise = std::min(std::exp(3 * scatter), kMostNoise);
+        return after.median > before.median * std::max(1 + mThreshold, noise) &&
                after.lo > before.hi * (1 + 0.5 * mThreshold);
     }
 

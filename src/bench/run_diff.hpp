@@ -21,7 +21,7 @@ struct RunDiff {
 /// Two documents of toJson(Results). Times are compared in units of the yardstick that was measured
 /// in the same rounds, which takes out most of what else the machine did. A row is a regression if
 /// * its time has grown by more than the share `threshold` and by more than three times what rows
-///   scatter, both as it is and by the yardstick, and the ranges p05..p95 of both runs do not overlap even
+///   scatter (a factor of 2 at most), both as it is and by the yardstick, and the ranges p05..p95 of both runs do not overlap even
 ///   when widened by half the threshold, or
 /// * its rmse or its bytes have grown by more than the threshold, or
 /// * it has failed, or has pixels that are not finite, where it had not.

@@ -82,6 +82,17 @@ TEST(RunDiff, WhereAllRowsScatter_AChangeHasToStandOut) {
     EXPECT_EQ(diff(makeRow(10), makeRow(16)).scatter, 0) << "one row has none";
 }
 
+TEST(RunDiff, HalfOfAllRowsSlower_IsNoScatter) {
+    Results before, after;
+    for (int i = 0; i < 40; ++i) {
+        Row row = makeRow(10), changed = makeRow(i % 2 ? 25 : 10);
+        row.scene = changed.scene = "s" + std::to_string(i);
+        before.frames.push_back({.row = row});
+        after.frames.push_back({.row = changed});
+    }
+    EXPECT_EQ(diffRuns(toJson(before), "old", toJson(after), "new", 0.25).regressions.size(), 20u);
+}
+
 TEST(RunDiff, ErrorBytesAndFailures_AreRegressionsToo) {
     Row wrong = makeRow(10), large = makeRow(10), failed = makeRow(10), nan = makeRow(10);
     wrong.error->rmse = 2e-3;
