@@ -69,7 +69,7 @@ std::size_t JsonText::skipBlank(std::size_t at) const {
         if (mText.compare(at, 2, "//") == 0)
             at = std::min(mText.find_first_of("\r\n", at), mText.size());
         else if (mText.compare(at, 2, "/*") == 0)
-            at = std::min(mText.find("*/", at), mText.size() - 2) + 2;
+            at = std::min(mText.find("*/", at + 2), mText.size() - 2) + 2;  // "/*/" is no end
         else
             return at;
     }
