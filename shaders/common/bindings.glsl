@@ -38,6 +38,15 @@ uint lightCount() { return frame.lightCount; }
 bool hasParallelRays() { return frame.orthographic != 0u; }
 LightData lightAt(uint i) { return lights[i]; }
 #endif
+// The first pixel of a tile. Devices without a division of integers do one for each lane of a vector.
+uvec2 tileCorner(uint tile) {
+    int columns = int(frame.tiles.x);
+    int row = int(float(int(tile)) / float(columns));  // may be the one before or behind
+    int column = int(tile) - row * columns;
+    int off = column < 0 ? -1 : column >= columns ? 1 : 0;
+    return uvec2(column - off * columns, row + off) * kTileSize;
+}
+
 layout(binding = kBindingMedia, scalar) readonly buffer MediumBuffer { MediumData media[]; };
 
 #endif

@@ -105,7 +105,8 @@ const MethodInfo& info() {
         .exactness = Exactness::Exact,
         .passes = "1 compute (media) and 1 raster (surfaces), each twice: count, store; 1 resolve",
         .bytesPerPixel = "16 + 8 n + 40 s for n medium intervals and s surface fragments; 68 s with solids; "
-                         "16 + 32 s of thin surfaces alone, 24 s of grey ones",
+                         "16 + 32 m of thin surfaces alone, 24 m of grey ones, where eight pixels in a row "
+                         "have up to m",
         .limits = "one screen tile's lists must fit into the budget",
         .settings = {{"budgetMiB", "1 .. 1048576 MiB", "1024",
                       "memory for list entries and surface records; beyond it, the screen is "

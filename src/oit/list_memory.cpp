@@ -72,7 +72,9 @@ void ListMemory::setTiles(std::span<const std::uint32_t> tiles, std::uint32_t sc
     const std::span<std::uint32_t> map = mTileMap.mappedAs<std::uint32_t>();
     map[0] = mSlotCapacity;
     std::fill_n(map.begin() + 1, screenTileCount, ~0u);
+    mHasEveryTile = mSlotCapacity == screenTileCount;
     for (std::uint32_t slot = 0; slot < mSlotCapacity; ++slot) {
+        mHasEveryTile = mHasEveryTile && tiles[slot] == slot;
         map[1 + tiles[slot]] = slot;
         map[1 + screenTileCount + slot] = tiles[slot];
     }
@@ -80,6 +82,7 @@ void ListMemory::setTiles(std::span<const std::uint32_t> tiles, std::uint32_t sc
 
 void ListMemory::setAnyTiles(std::uint32_t screenTileCount) {
     mSlotCapacity = screenTileCount;
+    mHasEveryTile = false;
     allocateSlots(screenTileCount, gpu::MemoryKind::Device);
 }
 
@@ -96,6 +99,7 @@ shader::PlacePush ListMemory::makePlacePush() const {
             .tiles = mTiles.deviceAddress(),
             .offsets = mOffsets.deviceAddress(),
             .surfaceOffsets = mSurfaceOffsets.deviceAddress(),
+            .surfaceCursors = mSurfaceCursors.deviceAddress(),
             .counters = mCounters.deviceAddress(),
             .blocks = mBlocks.deviceAddress(),
             .bands = mBands.deviceAddress(),
@@ -106,7 +110,7 @@ shader::PlacePush ListMemory::makePlacePush() const {
             .blockCapacity = static_cast<std::uint32_t>(mBlockCount),
             .drawCount = mDrawCount,
             .recordBytes = mRecordBytes,
-            .hasEntries = mHasEntries};
+            .recordWords = mRecordWords};
 }
 
 void ListMemory::declareBegin(frame::FrameBuilder& frame, const Inputs& inputs) {
@@ -120,8 +124,7 @@ void ListMemory::declareBegin(frame::FrameBuilder& frame, const Inputs& inputs) 
             draws[i] = {inputs.surfaces[i % mDrawCount].vertexCount, 0, 0, 0};
     }
     frame::PassBuilder& pass = frame.addPass(mName + ".clear");
-    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mProgress,
-                                      &mBlocks, &mCounters})
+    for (const gpu::Buffer* buffer : {&mOffsets, &mSurfaceOffsets, &mProgress, &mBlocks, &mCounters})
         pass.writes(frame.importBuffer(*buffer), Access::TransferWrite);
     pass.reads(frame.importBuffer(mTileMap), Access::ComputeRead);
     pass.reads(frame.importBuffer(mBins->totals()), Access::ComputeRead);
@@ -130,9 +133,7 @@ void ListMemory::declareBegin(frame::FrameBuilder& frame, const Inputs& inputs) 
     pass.record([this](gpu::Commands& commands, const frame::PassResources&) {
         for (const gpu::Buffer* buffer : {&mOffsets, &mProgress, &mBlocks, &mCounters})
             commands.fillBuffer(*buffer, 0);
-        if (mHasSurfaces)
-            for (const gpu::Buffer* buffer : {&mSurfaceOffsets, &mSurfaceCursors})
-                commands.fillBuffer(*buffer, 0);
+        if (mHasSurfaces) commands.fillBuffer(mSurfaceOffsets, 0);
         commands.computeTransferBarrier();
         commands.bindCompute(mBegin);
         commands.pushConstants(makePlacePush());
@@ -145,7 +146,8 @@ void ListMemory::declarePlace(frame::FrameBuilder& frame) {
     pass.reads(frame.importBuffer(mBands), Access::IndirectRead);
     pass.reads(frame.importBuffer(mBins->totals()), Access::ComputeRead);
     for (const gpu::Buffer* buffer :
-         {&mOffsets, &mSurfaceOffsets, &mBlocks, &mSums, &mCounters, &mTiles, &mBands})
+         {&mOffsets, &mSurfaceOffsets, &mSurfaceCursors, &mBlocks, &mSums, &mCounters, &mTiles,
+          &mBands})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
     if (mDrawCount > 0) pass.writes(frame.importBuffer(mDraws), Access::ComputeWrite);
     pass.record([this](gpu::Commands& commands, const frame::PassResources&) {

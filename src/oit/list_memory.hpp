@@ -24,11 +24,13 @@ class ListMemory {
     void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount);
     /// Any of the screen's tiles may have lists: passes ahead of declareBegin() fill tileMap().
     void setAnyTiles(std::uint32_t screenTileCount);
-    /// What a surface takes, beside its entry if there are any.
-    void setRecords(std::uint32_t recordBytes, bool hasEntries) {
-        mRecordBytes = recordBytes;
-        mHasEntries = hasEntries;
+    /// Lists have entries, and records of so many bytes.
+    void setRecordBytes(std::uint32_t bytes) {
+        mRecordBytes = bytes;
+        mRecordWords = 0;
     }
+    /// Lists have no entries, and records of so many words (shaders/oit/linked_list/lists.h).
+    void setRecordWords(std::uint32_t words) { mRecordWords = words; }
     /// Makes the memory for lists that `bandCount` bands use one after the other.
     void allocate(std::uint64_t blocks, std::uint32_t bandCount);
 
@@ -49,6 +51,8 @@ class ListMemory {
                       frame::Access access) const;
 
     std::uint32_t bandCount() const { return mBandCount; }
+    /// setTiles() has got all tiles of the screen in their order: slot s is tile s.
+    bool hasEveryTile() const { return mHasEveryTile; }
     std::uint32_t slotCapacity() const { return mSlotCapacity; }
     std::uint64_t blocks() const { return mBlockCount; }
     const gpu::Buffer& tileMap() const { return mTileMap; }
@@ -74,8 +78,8 @@ class ListMemory {
 
     gpu::Device* mDevice;
     std::string mName;
-    bool mHasSurfaces, mHasEntries = true;
-    std::uint32_t mRecordBytes = 0;
+    bool mHasSurfaces, mHasEveryTile = false;
+    std::uint32_t mRecordBytes = 0, mRecordWords = 0;
     const MediaBins* mBins;
     gpu::PrefixSum mPrefixSum;
     gpu::ComputePipeline mBegin, mTotals, mPlace, mBandArguments;

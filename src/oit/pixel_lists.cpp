@@ -98,12 +98,25 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
     };
     mCount = makeListPipeline(device, name + ".count", spv::oit_linked_list_count_comp,
                               mediaAnd({kOpaqueT}), mediaUsed);
-    if (mNeeds.surfaces)
-        mSurfaceCount = makeSurfacePipeline(device, name + ".surface_count",
-                                            spv::oit_linked_list_surface_count_frag,
-                                            {}, lightingConstants(mNeeds));
     makeStores(false);
     mResolve = makeResolve();
+}
+
+void PixelLists::setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount) {
+    mMemory.setTiles(tiles, screenTileCount);
+    makeSurfaceCount();
+}
+
+void PixelLists::setAnyTiles(std::uint32_t screenTileCount) {
+    mMemory.setAnyTiles(screenTileCount);
+    makeSurfaceCount();
+}
+
+void PixelLists::makeSurfaceCount() {
+    if (mNeeds.surfaces)
+        mSurfaceCount = makeSurfacePipeline(*mDevice, mName + ".surface_count",
+                                            spv::oit_linked_list_surface_count_frag,
+                                            surfaceConstants(), lightingConstants(mNeeds));
 }
 
 void PixelLists::makeStores(bool mayLackRoom) {
@@ -115,9 +128,12 @@ void PixelLists::makeStores(bool mayLackRoom) {
         *mDevice, mName + ".surface_store",
         chooseReal(*mDevice, spv::oit_linked_list_surface_store_frag,
                    spv::oit_linked_list_surface_store_frag_float64),
-        {hasMedia(mNeeds), mMemory.bandCount() == 1, mIsAlone,
-         mNeeds.colouredSurfaces},
-        lightingConstants(mNeeds));
+        surfaceConstants(), lightingConstants(mNeeds));
+}
+
+std::vector<std::uint32_t> PixelLists::surfaceConstants() const {
+    return {hasMedia(mNeeds), mMemory.bandCount() == 1, mIsAlone, mNeeds.colouredSurfaces,
+            mMemory.hasEveryTile()};
 }
 
 gpu::ComputePipeline PixelLists::makeResolve() const {
@@ -128,7 +144,7 @@ gpu::ComputePipeline PixelLists::makeResolve() const {
     if (mIsAlone)
         return makeListPipeline(*mDevice, mName + ".resolve",
                                 spv::oit_linked_list_resolve_surfaces_comp,
-                                join(mediaBindings(), images), {mNeeds.colouredSurfaces});
+                                join(mediaBindings(), images), surfaceConstants());
     const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
     return makeListPipeline(
         *mDevice, mName + ".resolve",
@@ -148,7 +164,9 @@ void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {
     mSliceCount = sliceCountFor(mBins->longestList());
     setAlone(mNeeds.surfaces && !hasMedia(mNeeds) && !mNeeds.solids);
     measureLengths(measure);
-    if (mIsAlone && mMemory.counters().longest > shader::kLongestOfSurfaces) {
+    constexpr std::uint64_t kMostBlocks = (std::uint64_t{1} << 32) / shader::kTileSize;
+    if (mIsAlone && (mMemory.counters().longest > shader::kLongestOfSurfaces ||
+                     planMemory().blocks >= kMostBlocks)) {
         setAlone(false);
         measureLengths(measure);
     }
@@ -161,12 +179,11 @@ void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {
 
 void PixelLists::setAlone(bool isAlone) {
     mIsAlone = isAlone;
-    const std::uint32_t thin =
-        mNeeds.colouredSurfaces ? shader::kRecordBytes : shader::kGreyRecordBytes;
-    mMemory.setRecords(isAlone           ? thin
-                       : mNeeds.solids ? shader::kSolidRecordBytes
-                                       : shader::kRecordBytes,
-                       !isAlone);
+    if (isAlone)
+        mMemory.setRecordWords(mNeeds.colouredSurfaces ? shader::kThinRecordWords
+                                                       : shader::kGreyRecordWords);
+    else
+        mMemory.setRecordBytes(mNeeds.solids ? shader::kSolidRecordBytes : shader::kRecordBytes);
 }
 
 void PixelLists::measureLengths(const OitMethod::MeasureFunction& measure) {

@@ -29,16 +29,14 @@ class PixelLists {
                std::uint64_t budgetBytes, MediaBins& bins, float epsilon = 0);
 
     /// Which tiles have lists; at least one. Before prepare().
-    void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount) {
-        mMemory.setTiles(tiles, screenTileCount);
-    }
+    void setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount);
     /// Measures and allocates; the bins must be allocated. Throws an input Error if the budget
     /// cannot hold the lists of one tile.
     void prepare(const OitMethod::MeasureFunction& measure);
 
     /// Instead of setTiles(): any of the screen's tiles may have lists, and passes ahead of
     /// declare() say which in tileMap().
-    void setAnyTiles(std::uint32_t screenTileCount) { mMemory.setAnyTiles(screenTileCount); }
+    void setAnyTiles(std::uint32_t screenTileCount);
     /// Instead of prepare(): reserves memory without measuring, by what the last finished frame
     /// wanted, if there is one, and for at least `blocksPerTile` blocks of 64 bytes for each tile
     /// of the screen; within the budget.
@@ -67,10 +65,13 @@ class PixelLists {
     std::uint32_t sliceCountFor(std::uint32_t mediaCount) const;
     std::uint64_t unvisitedMedia() const;
     gpu::ComputePipeline makeResolve() const;
+    /// Of passes that draw surfaces or resolve nothing else: kListConstant...
+    std::vector<std::uint32_t> surfaceConstants() const;
     /// Thin surfaces alone, in lists that are known to be short: other records, another resolve.
     void setAlone(bool isAlone);
     /// One frame that counts, to know what memory the lists take.
     void measureLengths(const OitMethod::MeasureFunction& measure);
+    void makeSurfaceCount();
     void makeStores(bool mayLackRoom);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Completes a pass in which each invocation visits the media of its column of pixels.

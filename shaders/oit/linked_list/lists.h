@@ -12,8 +12,9 @@ BRUME_STRUCTS_BEGIN
 // slots; slot s owns a run of blocks (ListTile), first entries, then surface records. Pixels are
 // numbered slot by slot, 64 to a tile, row by row. The entries of pixel i of a slot are
 // entries[offsets[i] .. offsets[i + 1]) of the tile's, media first, then surfaces, each sorted; its
-// records are records[surfaceOffsets[i] .. surfaceOffsets[i + 1]) of the tile's. Surfaces may have more
-// room than surfaceCursors[pixel] says that there are, and less.
+// records are records[surfaceOffsets[i] .. surfaceCursors[pixel]) of the tile's; the next pixel's begin
+// at surfaceOffsets[i + 1], which may be behind that cursor or, where room was lacking, before it.
+// Where lists have no entries, both are words of 64 bits, from the begin of the memory.
 BRUME_CONST uint kKindShift = 30u;
 BRUME_CONST uint kKindSphere = 0u;   // index into the sorted spheres
 BRUME_CONST uint kKindBox = 1u;      // index into the boxes
@@ -22,8 +23,7 @@ BRUME_CONST uint kIndexMask = 0x3fffffffu;
 
 BRUME_CONST uint kBlockBytes = 64u;
 BRUME_CONST uint kEntryBytes = 8u;
-BRUME_CONST uint kGreyRecordBytes = 24u;   // of ThinRecord, where all channels are alike
-BRUME_CONST uint kRecordBytes = 32u;       // of ThinRecord and SurfaceRecord
+BRUME_CONST uint kRecordBytes = 32u;       // of SurfaceRecord
 BRUME_CONST uint kSolidRecordBytes = 60u;  // of SolidRecord
 BRUME_CONST uint kTileOffsets = 65u;  // of a slot: those of 64 pixels, and the end
 
@@ -40,7 +40,7 @@ struct ListPush {
     uint64_t lists;     // blocks
     uint64_t offsets;   // uint[kTileOffsets slots]: counts of media until they are summed
     uint64_t surfaceOffsets;              // likewise, of surfaces
-    uint64_t surfaceCursors;              // uint[pixels]: how many surfaces are stored already
+    uint64_t surfaceCursors;              // uint[pixels]: where the next surface goes
     uint64_t sphereOffsets, spherePairs;  // uint[tiles + 1], uint[]
     uint64_t boxOffsets, boxPairs;
     uint64_t counters;  // ListCounters
@@ -89,20 +89,14 @@ struct SolidRecord {
     uint face;        // kFaceThin, kFaceFront, kFaceBack
 };
 
-// The same in lists of thin surfaces alone that are short enough for resolve_surfaces.comp: they have
-// no entries.
-struct ThinRecord {
-    float distance;
-    uint rank;
-    vec3 radiance;
-    vec3 loss;
-};
-struct GreyRecord {  // where all channels are alike
-    float distance;
-    uint rank;
-    vec3 radiance;
-    float loss;
-};
+// Lists of thin surfaces alone that are short enough for resolve_surfaces.comp have no entries, and
+// records of words of 64 bits, because some devices write word by word what they write: rank and
+// distance, red and green radiance, blue radiance and (red) loss, green and blue loss unless all
+// channels are alike; the first of each pair is the lower half. The words of the eight pixels of a
+// tile's row are one behind the other, in a block, so that neighbours share lines of the cache: a row
+// has room for eight times its longest list, and a pixel's next word is kTileSize words behind.
+BRUME_CONST uint kGreyRecordWords = 3u;
+BRUME_CONST uint kThinRecordWords = 4u;
 
 BRUME_CONST uint kFaceThin = 0u;
 BRUME_CONST uint kFaceFront = 1u;  // of a solid: the ray enters
@@ -150,7 +144,7 @@ struct ListCounters {
 // What totals.comp, place.comp and arguments.comp get to see: how the lists of a frame share the
 // memory.
 struct PlacePush {
-    uint64_t tileMap, tiles, offsets, surfaceOffsets, counters;  // as in ListPush
+    uint64_t tileMap, tiles, offsets, surfaceOffsets, surfaceCursors, counters;  // as in ListPush
     uint64_t blocks;     // uint[slots + 1]: what each tile wants; the sums of those before
     uint64_t bands;      // ListBand[bandCount + 1]
     uint64_t draws;      // DrawArguments[bandCount][drawCount]
@@ -159,8 +153,8 @@ struct PlacePush {
     uint bandCount;      // that are recorded
     uint blockCapacity;  // of the memory that they share
     uint drawCount;      // surfaces; 0: there are none
-    uint recordBytes;
-    uint hasEntries;     // 0: ThinRecord or GreyRecord alone
+    uint recordBytes;    // of a surface
+    uint recordWords;    // 0: lists have entries
 };
 
 // VkDrawIndirectCommand.
@@ -175,8 +169,9 @@ BRUME_CONST uint kKeptMedia = 8u;
 // Specialization constants of the passes that draw surfaces.
 BRUME_CONST uint kListConstantMedia = 0u;     // bool: there are media
 BRUME_CONST uint kListConstantOneBand = 1u;   // bool: all tiles' lists are in memory
-BRUME_CONST uint kListConstantAlone = 2u;     // bool: lists of ThinRecord
+BRUME_CONST uint kListConstantAlone = 2u;     // bool: lists without entries
 BRUME_CONST uint kListConstantColoured = 3u;  // bool: losses differ between channels
+BRUME_CONST uint kListConstantEveryTile = 4u;  // bool: all tiles have lists, slots are tiles
 
 // So long a list may be for resolve_surfaces.comp, which goes through it once for each eight entries.
 BRUME_CONST uint kLongestOfSurfaces = 240u;
@@ -188,12 +183,10 @@ BRUME_STRUCTS_END
 
 #ifdef __cplusplus
 static_assert(sizeof(brume::shader::ListPush) == 128);
-static_assert(sizeof(brume::shader::PlacePush) == 96);
+static_assert(sizeof(brume::shader::PlacePush) == 104);
 static_assert(sizeof(brume::shader::ListBand) == 56);
 static_assert(sizeof(brume::shader::ListCounters) == 56);
 static_assert(sizeof(brume::shader::SurfaceRecord) == brume::shader::kRecordBytes);
-static_assert(sizeof(brume::shader::ThinRecord) == brume::shader::kRecordBytes);
-static_assert(sizeof(brume::shader::GreyRecord) == brume::shader::kGreyRecordBytes);
 static_assert(sizeof(brume::shader::SolidRecord) == brume::shader::kSolidRecordBytes);
 static_assert(sizeof(brume::shader::PixelState) == 216);
 #endif

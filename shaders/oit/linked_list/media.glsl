@@ -27,8 +27,7 @@ bool beginColumn(out uint tile, out uint slot, out uint column) {
     uint thread = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
     column = thread % kTileSize;
     bool isInBand = findSlot(thread / kTileSize, slot, tile);
-    uvec2 corner =
-        uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + uvec2(column, 0u);
+    uvec2 corner = tileCorner(tile) + uvec2(column, 0u);
     for (uint row = 0u; row < kRows; ++row) {
         uvec2 pixel = corner + uvec2(0u, row);
         bool inside = all(lessThan(pixel, frame.size));

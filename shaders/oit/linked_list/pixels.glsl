@@ -9,8 +9,7 @@
 layout(push_constant, scalar) uniform Push { ListPush push; };
 layout(buffer_reference, scalar) buffer RecordArray { SurfaceRecord at[]; };
 layout(buffer_reference, scalar) buffer SolidRecordArray { SolidRecord at[]; };
-layout(buffer_reference, scalar) buffer ThinRecordArray { ThinRecord at[]; };
-layout(buffer_reference, scalar) buffer GreyRecordArray { GreyRecord at[]; };
+layout(buffer_reference, scalar) buffer WordArray { uint64_t at[]; };
 layout(buffer_reference, scalar) buffer CounterBlock { ListCounters counters; };
 layout(buffer_reference, scalar) readonly buffer BandBlock { ListBand band; };
 layout(buffer_reference, scalar) readonly buffer TileArray { ListTile at[]; };
@@ -32,12 +31,13 @@ bool findSlot(uint bandSlot, out uint slot, out uint tile) {
 }
 
 // False where the pixel's tile has no lists in this band; else its slot, and its place therein.
-// `isOneBand`: it has all tiles that have any.
-bool findPixel(uvec2 pixel, bool isOneBand, out uint slot, out uint inside) {
-    uvec2 tile = pixel / kTileSize;
+// `isOneBand`: it has all tiles that have any. `isEveryTile`: all have, and slots are tiles.
+bool findPixel(uvec2 pixel, bool isOneBand, bool isEveryTile, out uint slot, out uint inside) {
+    uvec2 position = pixel / kTileSize;
+    uint tile = position.y * frame.tiles.x + position.x;
     inside = pixel.y % kTileSize * kTileSize + pixel.x % kTileSize;
-    slot = UintArray(push.tileMap).at[1u + tile.y * frame.tiles.x + tile.x];
-    if (isOneBand) return slot != ~0u;
+    slot = isEveryTile ? tile : UintArray(push.tileMap).at[1u + tile];
+    if (isOneBand) return isEveryTile || slot != ~0u;
     ListBand band = BandBlock(push.band).band;
     return slot - band.firstSlot < band.slotCount;
 }

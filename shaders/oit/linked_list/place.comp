@@ -40,28 +40,45 @@ void addTo(bool isDropped, uint count) {
         atomicAdd(CounterBlock(push.counters).counters.stored.y, 1u);
 }
 
+// Where the surfaces of a pixel begin.
+void placeSurfaces(uint slot, uint pixel, uint offset) {
+    UintArray(push.surfaceOffsets).at[slot * kTileOffsets + pixel] = offset;
+    if (pixel < 64u) UintArray(push.surfaceCursors).at[slot * 64u + pixel] = offset;
+}
+
 // Counts become offsets into the tile's room for `mediaRoom` media and `surfaceRoom` surfaces.
 void placePixels(uint slot, uint media, uint surfaces, uint mediaRoom, uint surfaceRoom) {
-    uint first = slot * kTileOffsets, last = first + 64u;  // the last count is 0
     uint mediaBefore = 0u, surfacesBefore = 0u;
-    for (uint at = first; at <= last; ++at) {
+    for (uint pixel = 0u; pixel < kTileOffsets; ++pixel) {  // the last count is 0
+        uint at = slot * kTileOffsets + pixel;
         uint count = UintArray(push.offsets).at[at];
         UintArray(push.offsets).at[at] = mediaBefore + surfacesBefore;
         mediaBefore += count;
         if (push.drawCount == 0u) continue;
         count = UintArray(push.surfaceOffsets).at[at];
-        UintArray(push.surfaceOffsets).at[at] = surfacesBefore;
+        placeSurfaces(slot, pixel, surfacesBefore);
         surfacesBefore += count;
     }
     // A loop, because some devices step through what an `if` leaves out; divisions of 64 bits are
     // dear there.
     bool hasRoom = mediaRoom == media && surfaceRoom == surfaces;
-    for (uint at = hasRoom ? last + 1u : first; at <= last; ++at) {
+    for (uint pixel = hasRoom ? kTileOffsets : 0u; pixel < kTileOffsets; ++pixel) {
+        uint at = slot * kTileOffsets + pixel;
         uint before = push.drawCount > 0u ? UintArray(push.surfaceOffsets).at[at] : 0u;
         uint offset = shareOf(UintArray(push.offsets).at[at] - before, mediaRoom, media);
         uint surfaceOffset = shareOf(before, surfaceRoom, surfaces);
         UintArray(push.offsets).at[at] = offset + surfaceOffset;
-        if (push.drawCount > 0u) UintArray(push.surfaceOffsets).at[at] = surfaceOffset;
+        if (push.drawCount > 0u) placeSurfaces(slot, pixel, surfaceOffset);
+    }
+}
+
+// Where lists have no entries: they always have room.
+void placeRows(uint slot, uint firstBlock) {
+    for (uint row = 0u; row < kTileSize; ++row) {
+        uint blocks = rowBlocks(slot, row);
+        for (uint column = 0u; column < kTileSize; ++column)
+            placeSurfaces(slot, row * kTileSize + column, firstBlock * kTileSize + column);
+        firstBlock += blocks;
     }
 }
 
@@ -79,20 +96,24 @@ void main() {
         media += UintArray(push.offsets).at[i];
         if (push.drawCount > 0u) surfaces += UintArray(push.surfaceOffsets).at[i];
     }
-    uint forRecords = recordBlocks(surfaces);
-    uint wanted = entryBlocks(media + surfaces) + forRecords;
-    forRecords = shareOf(forRecords, room, wanted);
-    uint entryRoom = media + surfaces;
-    if (push.hasEntries != 0u)
+    uint entryRoom = media + surfaces, surfaceRoom = surfaces;
+    uint forRecords = 0u;
+    if (push.recordWords == 0u) {
+        forRecords = recordBlocks(surfaces);
+        forRecords = shareOf(forRecords, room, entryBlocks(entryRoom) + forRecords);
         entryRoom = min((room - forRecords) * (kBlockBytes / kEntryBytes), entryRoom);
-    uint surfaceRoom = min(min(forRecords * kBlockBytes / push.recordBytes, entryRoom), surfaces);
+        surfaceRoom = min(min(forRecords * kBlockBytes / push.recordBytes, entryRoom), surfaces);
+    }
     uint mediaRoom = min(entryRoom - surfaceRoom, media);
 
     // Empty tiles at the very end begin where nothing is.
     uint band = min(first / sharing.reach, push.bandCount - 1u);
     first -= band * sharing.reach;
     TileArray(push.tiles).at[slot] = ListTile(first, first + (room - forRecords));
-    placePixels(slot, media, surfaces, mediaRoom, surfaceRoom);
+    if (push.recordWords > 0u)
+        placeRows(slot, first);
+    else
+        placePixels(slot, media, surfaces, mediaRoom, surfaceRoom);
     atomicMin(BandArray(push.bands).at[1u + band].firstSlot, slot);
     atomicAdd(BandArray(push.bands).at[1u + band].slotCount, 1u);
     addTo(false, mediaRoom + surfaceRoom);

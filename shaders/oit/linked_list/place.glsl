@@ -13,11 +13,18 @@ layout(buffer_reference, scalar) buffer BandArray { ListBand at[]; };
 layout(buffer_reference, scalar) buffer TileArray { ListTile at[]; };
 
 uint divideUp(uint a, uint b) { return (a + b - 1u) / b; }
-uint entryBlocks(uint entries) {
-    return push.hasEntries != 0u ? divideUp(entries, kBlockBytes / kEntryBytes) : 0u;
-}
+uint entryBlocks(uint entries) { return divideUp(entries, kBlockBytes / kEntryBytes); }
 uint recordBlocks(uint records) {
     return uint((uint64_t(records) * push.recordBytes + (kBlockBytes - 1u)) / kBlockBytes);
+}
+
+// Of a row of a slot's tile, where lists have no entries.
+uint rowBlocks(uint slot, uint row) {
+    uint longest = 0u;
+    for (uint column = 0u; column < kTileSize; ++column)
+        longest = max(longest, UintArray(push.surfaceOffsets)
+                                   .at[slot * kTileOffsets + row * kTileSize + column]);
+    return longest * push.recordWords;
 }
 
 // A share of `x` as `part` is of `whole`, rounded down.

@@ -120,8 +120,7 @@ void main() {
     uint slot, tile;
     bool isInBand =
         findSlot(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, slot, tile);
-    uvec2 pixel =
-        uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
+    uvec2 pixel = tileCorner(tile) + gl_LocalInvocationID.xy;
     if (!isInBand || any(greaterThanEqual(pixel, frame.size))) return;
     uint index = slot * 64u + gl_LocalInvocationIndex;
     uint listIndex = slot * kTileOffsets + gl_LocalInvocationIndex;
@@ -131,10 +130,10 @@ void main() {
     count = UintArray(push.offsets).at[listIndex + 1u] - first;
     mediaCount = count;
     if (kSurfaces) {
-        uint room = UintArray(push.surfaceOffsets).at[listIndex + 1u] -
-                    UintArray(push.surfaceOffsets).at[listIndex];
+        uint firstSurface = UintArray(push.surfaceOffsets).at[listIndex];
+        uint room = UintArray(push.surfaceOffsets).at[listIndex + 1u] - firstSurface;
         mediaCount -= room;
-        count = mediaCount + min(UintArray(push.surfaceCursors).at[index], room);
+        count = mediaCount + min(UintArray(push.surfaceCursors).at[index] - firstSurface, room);
     }
     ray = makeRealRay(vec2(pixel) + 0.5);
     rayDirection = vec3(ray.direction);

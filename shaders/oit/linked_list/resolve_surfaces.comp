@@ -6,7 +6,9 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "pixels.glsl"
 
-layout(constant_id = 0) const bool kColoured = true;  // losses differ between channels
+layout(constant_id = kListConstantColoured) const bool kColoured = true;
+layout(constant_id = kListConstantOneBand) const bool kOneBand = false;
+layout(constant_id = kListConstantEveryTile) const bool kEveryTile = false;
 const bool kSolids = false;
 #include "surfaces.glsl"
 
@@ -32,31 +34,29 @@ bool isAfter(Key a, Key b) {
     return isBefore(b, a) || (a.distance == b.distance && a.rank == b.rank && a.index > b.index);
 }
 
-uint64_t records;  // address
+// From a word to the same of the next surface.
+const uint kStep = (kColoured ? kThinRecordWords : kGreyRecordWords) * kTileSize;
 
-Key loadKey(uint i) {
-    if (kColoured) {
-        ThinRecord record = ThinRecordArray(records).at[i];
-        return Key(distanceKey(record.distance), record.rank, i);
-    }
-    GreyRecord record = GreyRecordArray(records).at[i];
-    return Key(distanceKey(record.distance), record.rank, i);
+vec2 floatsAt(uint word) {
+    return uintBitsToFloat(unpackUint2x32(WordArray(push.lists).at[word]));
 }
 
-void crossRecord(inout Path path, uint i) {
-    if (kColoured) {
-        ThinRecord record = ThinRecordArray(records).at[i];
-        crossSurface(path, record.radiance, record.loss);
-    } else {
-        GreyRecord record = GreyRecordArray(records).at[i];
-        crossSurface(path, record.radiance, vec3(record.loss));
-    }
+Key loadKey(uint word) {
+    uvec2 place = unpackUint2x32(WordArray(push.lists).at[word]);
+    return Key(place.y, place.x, word);
+}
+
+void crossRecord(inout Path path, uint word) {
+    vec2 redGreen = floatsAt(word + kTileSize), blueLoss = floatsAt(word + 2u * kTileSize);
+    vec3 loss = vec3(blueLoss.y);
+    if (kColoured) loss.gb = floatsAt(word + 3u * kTileSize);
+    crossSurface(path, vec3(redGreen, blueLoss.x), loss);
 }
 
 // The nearest of list[first .. end) behind `last`, in order.
 void findNearest(uint first, uint end, bool isBegin, Key last, out Key nearest[kNearest]) {
     [[unroll]] for (uint k = 0u; k < kNearest; ++k) nearest[k] = kLastKey;
-    for (uint i = first; i < end; ++i) {
+    for (uint i = first; i < end; i += kStep) {
         Key key = loadKey(i);
         if (!isBegin && !isAfter(key, last)) key = kLastKey;
         [[unroll]] for (uint k = 0u; k < kNearest; ++k) {
@@ -73,19 +73,18 @@ void findNearest(uint first, uint end, bool isBegin, Key last, out Key nearest[k
 }
 
 void main() {
-    uint slot, tile;
-    bool isInBand = findSlot(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, slot, tile);
-    uvec2 pixel =
-        uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize + gl_LocalInvocationID.xy;
+    uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    uint slot = group, tile = group;
+    bool isInBand = kOneBand && kEveryTile ? tile < frame.tiles.x * frame.tiles.y
+                                           : findSlot(group, slot, tile);
+    uvec2 pixel = tileCorner(tile) + gl_LocalInvocationID.xy;
     if (!isInBand || any(greaterThanEqual(pixel, frame.size))) return;
-    records = recordsOf(slot);
-    uint at = slot * kTileOffsets + gl_LocalInvocationIndex;
-    uint first = UintArray(push.surfaceOffsets).at[at];
-    uint end = min(first + UintArray(push.surfaceCursors).at[slot * 64u + gl_LocalInvocationIndex],
-                   UintArray(push.surfaceOffsets).at[at + 1u]);
+    uint first =
+        UintArray(push.surfaceOffsets).at[slot * kTileOffsets + gl_LocalInvocationIndex];
+    uint end = UintArray(push.surfaceCursors).at[slot * 64u + gl_LocalInvocationIndex];
     Path path = beginPath();
     Key nearest[kNearest], last = kLastKey;
-    for (uint crossed = first; crossed < end; crossed += kNearest) {
+    for (uint crossed = first; crossed < end; crossed += kNearest * kStep) {
         findNearest(first, end, crossed == first, last, nearest);
         [[unroll]] for (uint k = 0u; k < kNearest; ++k)
             if (nearest[k].index != kLastKey.index) crossRecord(path, nearest[k].index);
@@ -93,6 +92,6 @@ void main() {
     }
     vec3 behind = texelFetch(opaqueColor, ivec2(pixel), 0).rgb;
     imageStore(result, ivec2(pixel), vec4(path.radiance + path.surfaces * behind, 1.0));
-    if (end - first > kLongestOfSurfaces)
+    if (end - first > kLongestOfSurfaces * kStep)
         atomicAdd(CounterBlock(push.counters).counters.exhausted, 1u);
 }

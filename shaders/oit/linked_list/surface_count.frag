@@ -7,11 +7,13 @@
 #include "../../common/surface.glsl"
 #include "pixels.glsl"
 
+layout(constant_id = kListConstantEveryTile) const bool kEveryTile = false;
+
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     bool isSeen = isSolid(point) || mayBeInFront(point.t, ivec2(pixel));
     uint slot, inside;
-    if (!isSeen || !findPixel(pixel, true, slot, inside)) return;
+    if (!isSeen || !findPixel(pixel, true, kEveryTile, slot, inside)) return;
     atomicAdd(UintArray(push.surfaceOffsets).at[slot * kTileOffsets + inside], 1u);
 }

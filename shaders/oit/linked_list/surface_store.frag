@@ -12,6 +12,9 @@ layout(constant_id = kListConstantMedia) const bool kMedia = true;
 layout(constant_id = kListConstantOneBand) const bool kOneBand = false;
 layout(constant_id = kListConstantAlone) const bool kAlone = false;
 layout(constant_id = kListConstantColoured) const bool kColoured = true;
+layout(constant_id = kListConstantEveryTile) const bool kEveryTile = false;
+
+uint64_t packWord(vec2 pair) { return packUint2x32(floatBitsToUint(pair)); }
 
 SurfaceRecord makeRecord(SurfacePoint point) {
     SurfaceRecord record;
@@ -31,14 +34,7 @@ SurfaceRecord makeRecord(SurfacePoint point) {
 
 void storeRecord(uint slot, uint index, SurfacePoint point) {
     SurfaceRecord record = makeRecord(point);
-    float distance = max(point.t, 0.0);
-    if (kAlone && !kColoured) {
-        GreyRecordArray(recordsOf(slot)).at[index] =
-            GreyRecord(distance, record.rank, record.radiance, record.loss.x);
-    } else if (kAlone) {
-        ThinRecordArray(recordsOf(slot)).at[index] =
-            ThinRecord(distance, record.rank, record.radiance, record.loss);
-    } else if (kSolids) {
+    if (kSolids) {
         uint face = !isSolid(point) ? kFaceThin : point.isFront ? kFaceFront : kFaceBack;
         SolidRecordArray(recordsOf(slot)).at[index] =
             SolidRecord(record, point.material.extinction, point.material.scattering, face);
@@ -47,22 +43,39 @@ void storeRecord(uint slot, uint index, SurfacePoint point) {
     }
 }
 
+void store(uint slot, uint inside, SurfacePoint point) {
+    uint index = atomicAdd(UintArray(push.surfaceCursors).at[slot * 64u + inside], 1u);
+    uint at = slot * kTileOffsets + inside;
+    uint end = UintArray(push.surfaceOffsets).at[at + 1u];
+    if (index >= end) return;  // no room
+    storeRecord(slot, index, point);
+    uint entry = index;
+    if (kMedia) entry = UintArray(push.offsets).at[at + 1u] - (end - index);
+    entriesOf(slot).at[entry] =
+        uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | index);
+}
+
+void storeWords(uint slot, uint inside, SurfacePoint point) {
+    SurfaceRecord record = makeRecord(point);
+    uint words = kColoured ? kThinRecordWords : kGreyRecordWords;
+    uint first =
+        atomicAdd(UintArray(push.surfaceCursors).at[slot * 64u + inside], words * kTileSize);
+    WordArray memory = WordArray(push.lists);
+    memory.at[first] = packUint2x32(uvec2(record.rank, distanceKey(max(point.t, 0.0))));
+    memory.at[first + kTileSize] = packWord(record.radiance.rg);
+    memory.at[first + 2u * kTileSize] = packWord(vec2(record.radiance.b, record.loss.r));
+    if (kColoured) memory.at[first + 3u * kTileSize] = packWord(record.loss.gb);
+}
+
 void main() {
     SurfacePoint point = findSurfacePoint();
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     bool isSeen = !kOpaque || isSolid(point) ||
                   point.t < opaqueDistanceAt(ivec2(pixel));
     uint slot, inside;
-    if (!isSeen || !findPixel(pixel, kOneBand, slot, inside)) return;
-    uint arrival = atomicAdd(UintArray(push.surfaceCursors).at[slot * 64u + inside], 1u);
-    uint at = slot * kTileOffsets + inside;
-    uint index = UintArray(push.surfaceOffsets).at[at] + arrival;
-    uint end = UintArray(push.surfaceOffsets).at[at + 1u];
-    if (index >= end) return;  // no room
-    storeRecord(slot, index, point);
-    if (kAlone) return;
-    uint entry = index;
-    if (kMedia) entry = UintArray(push.offsets).at[at + 1u] - (end - index);
-    entriesOf(slot).at[entry] =
-        uvec2(distanceKey(max(point.t, 0.0)), kKindSurface << kKindShift | index);
+    if (!isSeen || !findPixel(pixel, kOneBand, kEveryTile, slot, inside)) return;
+    if (kAlone)
+        storeWords(slot, inside, point);
+    else
+        store(slot, inside, point);
 }

@@ -22,6 +22,10 @@ void main() {
         longest = max(longest, count);
     }
     uint blocks = entryBlocks(entries) + recordBlocks(surfaces);
+    if (push.recordWords > 0u) {
+        blocks = 0u;
+        for (uint row = 0u; row < kTileSize; ++row) blocks += rowBlocks(slot, row);
+    }
     UintArray(push.blocks).at[slot] = blocks;
     atomicMax(CounterBlock(push.counters).counters.largestTile, blocks);
     atomicMax(CounterBlock(push.counters).counters.longest, longest);

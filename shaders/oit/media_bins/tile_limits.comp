@@ -14,7 +14,7 @@ layout(buffer_reference, scalar) writeonly buffer Limits { float at[]; };
 void main() {
     uint tile = gl_GlobalInvocationID.x;
     if (tile >= frame.tiles.x * frame.tiles.y) return;
-    uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize;
+    uvec2 corner = tileCorner(tile);
     uvec2 end = min(corner + kTileSize, frame.size);
     float limit = 0.0;
     for (uint y = corner.y; y < end.y; ++y)

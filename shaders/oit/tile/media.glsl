@@ -28,9 +28,6 @@ vec3 perChannel(vec3 x) { return kColoured ? x : vec3(x.x); }
 // The tile that a slot of this dispatch stands for.
 uint tileCount() { return UintArray(push.tiles).at[kTileListCount]; }
 uint tileAt(uint slot) { return UintArray(push.tiles).at[kTileListHead + slot]; }
-uvec2 tileCorner(uint tile) {
-    return uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * kTileSize;
-}
 
 // For passes with one workgroup per tile and one invocation per pixel: false outside the image.
 bool beginPixel(out uint tile, out uvec2 pixel) {
