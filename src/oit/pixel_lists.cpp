@@ -7,16 +7,6 @@
 #include <shaders/common/frame_bindings.h>
 #include <shaders/common/mesh.h>
 #include <shaders/oit/linked_list/lists.h>
-#include <spv/common/mesh.vert.float64.hpp>
-#include <spv/common/mesh.vert.hpp>
-#include <spv/oit/linked_list/count.comp.hpp>
-#include <spv/oit/linked_list/resolve.comp.float64.hpp>
-#include <spv/oit/linked_list/resolve.comp.hpp>
-#include <spv/oit/linked_list/resolve_surfaces.comp.hpp>
-#include <spv/oit/linked_list/store.comp.hpp>
-#include <spv/oit/linked_list/surface_count.frag.hpp>
-#include <spv/oit/linked_list/surface_store.frag.float64.hpp>
-#include <spv/oit/linked_list/surface_store.frag.hpp>
 
 #include <fmt/format.h>
 
@@ -34,36 +24,6 @@ constexpr std::uint32_t kAllBands = 0;
 /// Recorded where nothing is measured: beyond the reserved memory a frame takes longer first, and
 /// drops only then.
 constexpr std::uint32_t kReservedBands = 4, kMostBands = 4096;
-
-const gpu::Binding kOpaqueT{shader::kBindingOpaqueT, gpu::BindingType::SampledImage};
-
-gpu::ComputePipeline makeListPipeline(gpu::Device& device, const std::string& name,
-                                      std::span<const std::uint32_t> spirv,
-                                      const std::vector<gpu::Binding>& own,
-                                      std::vector<std::uint32_t> specialization,
-                                      std::vector<gpu::NumberedConstant> constants = {}) {
-    return {device,
-            {.name = name,
-             .spirv = spirv,
-             .bindings = join(frameBindings(), own),
-             .pushConstantBytes = sizeof(shader::ListPush),
-             .specialization = std::move(specialization),
-             .constants = std::move(constants)}};
-}
-
-gpu::GraphicsPipeline makeSurfacePipeline(gpu::Device& device, const std::string& name,
-                                          std::span<const std::uint32_t> spirv,
-                                          std::vector<std::uint32_t> specialization,
-                                          std::vector<gpu::NumberedConstant> constants) {
-    return {device,
-            {.name = name,
-             .vertexSpirv = chooseReal(device, spv::common_mesh_vert, spv::common_mesh_vert_float64),
-             .fragmentSpirv = spirv,
-             .bindings = join(surfaceBindings(), {kOpaqueT}),
-             .pushConstantBytes = sizeof(shader::ListPush),
-             .specialization = std::move(specialization),
-             .constants = std::move(constants)}};
-}
 
 bool hasMedia(const Needs& needs) { return needs.spheres || needs.boxes; }
 
@@ -90,70 +50,28 @@ PixelLists::PixelLists(gpu::Device& device, const std::string& name, const Needs
       mEpsilon(epsilon),
       mNeeds(needs),
       mBins(&bins),
-      mMemory(device, name, needs, bins) {
+      mMemory(device, name, needs, bins),
+      mPipelines(device, name, needs) {
     setAlone(false);
-    const std::vector<std::uint32_t> mediaUsed = {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces};
-    const auto mediaAnd = [](std::vector<gpu::Binding> more) {
-        return join(mediaBindings(), more);
-    };
-    mCount = makeListPipeline(device, name + ".count", spv::oit_linked_list_count_comp,
-                              mediaAnd({kOpaqueT}), mediaUsed);
-    makeStores(false);
-    mResolve = makeResolve();
+    mPipelines.makeStores(traits(), false);
+    mPipelines.makeResolve(traits());
+}
+
+ListTraits PixelLists::traits() const {
+    return {.isAlone = mIsAlone,
+            .isOneBand = mMemory.bandCount() == 1,
+            .isEveryTile = mMemory.hasEveryTile(),
+            .isOneRound = mRoundCount == 1};
 }
 
 void PixelLists::setTiles(std::span<const std::uint32_t> tiles, std::uint32_t screenTileCount) {
     mMemory.setTiles(tiles, screenTileCount);
-    makeSurfaceCount();
+    mPipelines.makeSurfaceCount(traits());
 }
 
 void PixelLists::setAnyTiles(std::uint32_t screenTileCount) {
     mMemory.setAnyTiles(screenTileCount);
-    makeSurfaceCount();
-}
-
-void PixelLists::makeSurfaceCount() {
-    if (mNeeds.surfaces)
-        mSurfaceCount = makeSurfacePipeline(*mDevice, mName + ".surface_count",
-                                            spv::oit_linked_list_surface_count_frag,
-                                            surfaceConstants(), lightingConstants(mNeeds));
-}
-
-void PixelLists::makeStores(bool mayLackRoom) {
-    mStore = makeListPipeline(*mDevice, mName + ".store", spv::oit_linked_list_store_comp,
-                              join(mediaBindings(), {kOpaqueT}),
-                              {mNeeds.spheres, mNeeds.boxes, mNeeds.surfaces, mayLackRoom});
-    if (!mNeeds.surfaces) return;
-    mSurfaceStore = makeSurfacePipeline(
-        *mDevice, mName + ".surface_store",
-        chooseReal(*mDevice, spv::oit_linked_list_surface_store_frag,
-                   spv::oit_linked_list_surface_store_frag_float64),
-        surfaceConstants(), lightingConstants(mNeeds));
-}
-
-std::vector<std::uint32_t> PixelLists::surfaceConstants() const {
-    return {hasMedia(mNeeds), mMemory.bandCount() == 1, mIsAlone, mNeeds.colouredSurfaces,
-            mMemory.hasEveryTile()};
-}
-
-gpu::ComputePipeline PixelLists::makeResolve() const {
-    const std::vector<gpu::Binding> images = {
-        kOpaqueT,
-        {shader::kBindingOpaqueColor, gpu::BindingType::SampledImage},
-        {shader::kBindingResult, gpu::BindingType::StorageImage}};
-    if (mIsAlone)
-        return makeListPipeline(*mDevice, mName + ".resolve",
-                                spv::oit_linked_list_resolve_surfaces_comp,
-                                join(mediaBindings(), images), surfaceConstants());
-    const bool isVarying = mNeeds.varyingDensity || mNeeds.varyingLight;
-    return makeListPipeline(
-        *mDevice, mName + ".resolve",
-        chooseReal(*mDevice, spv::oit_linked_list_resolve_comp,
-               spv::oit_linked_list_resolve_comp_float64),
-        join(mediaBindings(), images),
-        {mNeeds.surfaces, mNeeds.boxes, isVarying, mNeeds.varyingLight, mNeeds.colouredExtinction,
-         mRoundCount > 1, mNeeds.media <= shader::kKeptMedia ? mNeeds.media : 0, mNeeds.solids},
-        lightingConstants(mNeeds));
+    mPipelines.makeSurfaceCount(traits());
 }
 
 std::uint32_t PixelLists::sliceCountFor(std::uint32_t mediaCount) const {
@@ -172,8 +90,8 @@ void PixelLists::prepare(const OitMethod::MeasureFunction& measure) {
     }
     const Memory memory = planMemory();
     mMemory.allocate(memory.blocks, memory.bandCount);
-    makeStores(false);
-    mResolve = makeResolve();
+    mPipelines.makeStores(traits(), false);
+    mPipelines.makeResolve(traits());
     planRounds(measure);
 }
 
@@ -214,9 +132,9 @@ void PixelLists::reserve(std::uint32_t blocksPerTile) {
     mMemory.allocate(blocks, bandCount);
     if (mIsAlone) {
         setAlone(false);
-        mResolve = makeResolve();
+        mPipelines.makeResolve(traits());
     }
-    makeStores(true);
+    mPipelines.makeStores(traits(), true);
     setRounds(seen.exhausted > 0 ? std::min(mRoundCount * 4, kMostRounds) : mRoundCount);
 }
 
@@ -238,7 +156,7 @@ PixelLists::Memory PixelLists::planMemory() const {
 void PixelLists::setRounds(std::uint32_t count) {
     if (count != mRoundCount) {
         mRoundCount = count;
-        mResolve = makeResolve();
+        mPipelines.makeResolve(traits());
     }
     const std::uint64_t pixels = std::uint64_t{mMemory.slotCapacity()} * kTilePixels;
     const std::uint64_t bytes = count > 1 ? pixels * sizeof(shader::PixelState) : 16;
@@ -307,10 +225,10 @@ void PixelLists::declareSurfaces(frame::FrameBuilder& frame, const Inputs& input
 
 void PixelLists::declareCount(frame::FrameBuilder& frame, const Inputs& inputs) {
     mMemory.declareBegin(frame, inputs);
-    if (mNeeds.surfaces) declareSurfaces(frame, inputs, kAllBands, "count", mSurfaceCount);
+    if (mNeeds.surfaces) declareSurfaces(frame, inputs, kAllBands, "count", mPipelines.surfaceCount());
     frame::PassBuilder& pass = frame.addPass(mName + ".count");
     pass.readsWrites(frame.importBuffer(mMemory.offsets()), Access::ComputeWrite);
-    declareMedia(frame, inputs, kAllBands, pass, mCount);
+    declareMedia(frame, inputs, kAllBands, pass, mPipelines.count());
 }
 
 void PixelLists::declareMedia(frame::FrameBuilder& frame, const Inputs& inputs,
@@ -343,8 +261,8 @@ void PixelLists::declareStore(frame::FrameBuilder& frame, const Inputs& inputs,
         pass.reads(frame.importBuffer(*buffer), Access::ComputeRead);
     for (const gpu::Buffer* buffer : {&mMemory.lists(), &mMemory.progress()})
         pass.readsWrites(frame.importBuffer(*buffer), Access::ComputeWrite);
-    declareMedia(frame, inputs, band, pass, mStore);
-    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mSurfaceStore);
+    declareMedia(frame, inputs, band, pass, mPipelines.store());
+    if (mNeeds.surfaces) declareSurfaces(frame, inputs, band, "store", mPipelines.surfaceStore());
 }
 
 void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs,
@@ -367,7 +285,7 @@ void PixelLists::declareResolve(frame::FrameBuilder& frame, const Inputs& inputs
         pass.readsWrites(inputs.result, Access::ComputeWrite);
     pass.record(
         [this, inputs, band](gpu::Commands& commands, const frame::PassResources& resources) {
-            commands.bindCompute(mResolve);
+            commands.bindCompute(mPipelines.resolve());
             bindFrame(commands, inputs);
             bindMedia(commands, inputs, mBins->sortedSpheres(), mBins->listedBoxes(inputs));
             commands.bind(shader::kBindingOpaqueT, resources.image(inputs.opaqueT),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <oit/list_memory.hpp>
+#include <oit/list_pipelines.hpp>
 #include <oit/oit_method.hpp>
 
 #include <span>
@@ -64,15 +65,11 @@ class PixelLists {
     void setRounds(std::uint32_t count);
     std::uint32_t sliceCountFor(std::uint32_t mediaCount) const;
     std::uint64_t unvisitedMedia() const;
-    gpu::ComputePipeline makeResolve() const;
-    /// Of passes that draw surfaces or resolve nothing else: kListConstant...
-    std::vector<std::uint32_t> surfaceConstants() const;
-    /// Thin surfaces alone, in lists that are known to be short: other records, another resolve.
+    ListTraits traits() const;
+    /// ListTraits::isAlone; the memory takes other records then.
     void setAlone(bool isAlone);
     /// One frame that counts, to know what memory the lists take.
     void measureLengths(const OitMethod::MeasureFunction& measure);
-    void makeSurfaceCount();
-    void makeStores(bool mayLackRoom);
     void declareCount(frame::FrameBuilder& frame, const Inputs& inputs);
     /// Completes a pass in which each invocation visits the media of its column of pixels.
     void declareMedia(frame::FrameBuilder& frame, const Inputs& inputs, std::uint32_t band,
@@ -91,10 +88,9 @@ class PixelLists {
     Needs mNeeds;
     MediaBins* mBins;
     ListMemory mMemory;
-    gpu::ComputePipeline mCount, mStore, mResolve;
-    gpu::GraphicsPipeline mSurfaceCount, mSurfaceStore;
+    ListPipelines mPipelines;
     std::uint32_t mSliceCount = 1, mRoundCount = 1;
-    bool mIsAlone = false;  ///< setAlone()
+    bool mIsAlone = false;
     gpu::Buffer mStates;
 };
 
