@@ -121,7 +121,7 @@ void addBench(CLI::App& app, Invocation& invocation) {
         ->check(CLI::Range(1, 10'000'000))
         ->capture_default_str();
     command->add_option("--size", a.size, "WIDTHxHEIGHT in pixels instead of the scenes' own");
-    command->add_option("--repeats", a.repeats, "Frames to measure per row (default 20, quick suites 5)")
+    command->add_option("--repeats", a.repeats, "Frames to measure per row (default 20; quick suites 5, short ones up to 20)")
         ->check(CLI::Range(1, 100000));
     command->add_flag("!--no-error", a.withError, "Do not compare with the reference");
     command->add_option("--error-every", a.errorEvery, "Compare only the middle one of each N x N pixels, where the reference takes long")

@@ -6,6 +6,7 @@
 #include <bench/measure.hpp>
 #include <bench/method_word.hpp>
 #include <core/error.hpp>
+#include <numeric>
 #include <oit/method_info.hpp>
 #include <shadows/store_info.hpp>
 
@@ -55,6 +56,9 @@ void checkOptions(const MeasureOptions& options) {
                              "none of the methods knows it, see brume list methods");
 }
 
+/// So long frames are measured, where they may be repeated.
+constexpr double kShortMs = 50;
+
 /// One method in the race.
 struct Contestant {
     std::string word;  // of MeasureOptions::methods
@@ -73,6 +77,12 @@ struct Contestant {
             failure = error.what();
             renderer.reset();
         }
+    }
+
+    bool wantsFrame(const MeasureOptions& asked) const {
+        if (!failure.empty()) return false;
+        return samples.count() < asked.repeats ||
+               (samples.count() < asked.shortRepeats && samples.totalMs() < kShortMs);
     }
 };
 
@@ -97,24 +107,33 @@ std::vector<Contestant> makeContestants(gpu::Device& device, const render::Prepa
     return contestants;
 }
 
-/// A B C A B C ... with the yardstick before each round. The first warm-up counts fragments.
-/// Returns the yardstick's times.
+/// A B C A B C ... with the yardstick before each round, until all have their frames. The first
+/// warm-up counts fragments. Returns the yardstick's times.
 std::vector<double> renderRounds(std::vector<std::vector<Contestant>>& races,
                                  const MeasureOptions& options) {
-    const int rounds = options.warmups + options.repeats;
     std::vector<double> yardstickMs;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0;; ++round) {
         const bool isWarmup = round < options.warmups;
+        const auto takesPart = [&](const Contestant& contestant) {
+            return isWarmup || contestant.wantsFrame(options);
+        };
+        if (std::none_of(races.begin(), races.end(), [&](const std::vector<Contestant>& race) {
+                return std::any_of(race.begin(), race.end(), takesPart);
+            }))
+            break;
         if (options.yardstick && !isWarmup) yardstickMs.push_back(options.yardstick->measure());
         for (std::vector<Contestant>& contestants : races)
-            for (Contestant& contestant : contestants)
+            for (Contestant& contestant : contestants) {
+                if (!takesPart(contestant)) continue;
                 contestant.attempt([&] {
                     contestant.renderer->countFragments(isWarmup && round == 0);
                     render::Result frame = contestant.renderer->renderFrame();
                     if (isWarmup && round == 0) contestant.samples.setFragments(frame);
                     if (!isWarmup) contestant.samples.add(std::move(frame));
                 });
-        if (options.progress) options.progress((round + 1.0) / rounds);
+            }
+        if (options.progress)
+            options.progress(std::min((round + 1.0) / (options.warmups + options.repeats), 1.0));
     }
     return yardstickMs;
 }
@@ -133,7 +152,7 @@ std::map<std::string, std::uint64_t> collectSeeds(const scene::Scene& scene,
     return seeds;
 }
 
-std::string makeCommand(const Row& row, const MeasureOptions& options) {
+std::string makeCommand(const Row& row, int repeats, const MeasureOptions& options) {
     std::string command = fmt::format("brume bench --scenes {} --methods {}",
                                       quoteForShell(row.scene), quoteForShell(row.method));
     if (!options.shadow.empty()) command += " --shadow " + quoteForShell(options.shadow);
@@ -142,7 +161,7 @@ std::string makeCommand(const Row& row, const MeasureOptions& options) {
     for (const auto& [key, value] : row.settings)
         if (!own.contains(key)) command += " --set " + quoteForShell(key + "=" + value);
     if (options.truth) command += " --truth " + quoteForShell(options.truthName);
-    command += fmt::format(" --repeats {}", options.repeats);
+    command += fmt::format(" --repeats {}", repeats);
     if (options.errorEvery > 1) command += fmt::format(" --error-every {}", options.errorEvery);
     return command + (options.withError ? "" : " --no-error");
 }
@@ -156,7 +175,7 @@ Row describeContestant(const Contestant& contestant, const std::string& sceneNam
     row.failure = contestant.failure;
     // Settings of what could not be set up may be no numbers.
     if (row.failure.empty()) row.seeds = collectSeeds(scene, contestant.options);
-    row.command = makeCommand(row, options);
+    row.command = makeCommand(row, std::max(contestant.samples.count(), options.repeats), options);
     return row;
 }
 
@@ -218,6 +237,10 @@ void summariseRace(gpu::Device& device, const Entrant& entrant,
 }
 
 }  // namespace
+
+double FrameSamples::totalMs() const {
+    return std::accumulate(mTimesMs.begin(), mTimesMs.end(), 0.0);
+}
 
 void FrameSamples::add(render::Result frame) {
     mTimesMs.push_back(frame.timeMs);

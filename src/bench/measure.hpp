@@ -33,6 +33,8 @@ class FrameSamples {
 
     const render::Result& last() const { return mLast; }
     bool isEmpty() const { return mTimesMs.empty(); }
+    int count() const { return static_cast<int>(mTimesMs.size()); }
+    double totalMs() const;
 
   private:
     std::vector<double> mTimesMs, mWallMs;
@@ -67,6 +69,9 @@ struct MeasureOptions {
                                        ///< of its own: "stochastic:samples=16:mask=naive"
     scene::Settings settings;          ///< each method gets those it knows
     int repeats = 20;
+    /// Frames are repeated up to so often, if that is more, until they have taken 50 ms: where a
+    /// frame takes two, a few of them may all be twice as slow by chance.
+    int shortRepeats = 0;
     int warmups = 1;
     bool withError = true;  ///< compare with the reference
     int errorEvery = 1;     ///< at the middle one of each n x n pixels

@@ -129,6 +129,7 @@ class Runner {
         options.methods = plan.methods;
         options.settings = plan.settings;
         options.repeats = repeats(plan);
+        options.shortRepeats = mOptions.shortRepeats;
         options.withError = plan.withError && mOptions.withError;
         options.errorEvery = mOptions.errorEvery;
         // Pictures of the error have as many pixels as those of the result.

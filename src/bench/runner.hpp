@@ -11,6 +11,7 @@ namespace brume::bench {
 
 struct RunOptions {
     int repeats = 20;  ///< where a plan does not say
+    int shortRepeats = 0;  ///< MeasureOptions::shortRepeats
     bool withError = true;
     int errorEvery = 1;       ///< errors at the middle one of each n x n pixels
     bool keepImages = false;  ///< small ones, for the report

@@ -19,8 +19,9 @@ namespace brume::app {
 namespace {
 
 constexpr const char* kDoing = "benchmarking";
-/// Repeats of quick suites, unless asked for: they are many, and small.
-constexpr int kQuickRepeats = 5;
+/// Repeats, unless asked for. Rows of quick suites are many, and small: those of few milliseconds are
+/// repeated as often as in others.
+constexpr int kRepeats = 20, kQuickRepeats = 5;
 
 std::string listSceneNames() {
     std::string names;
@@ -116,6 +117,10 @@ void printResults(const bench::Results& results) {
 bench::Results measure(const BenchArguments& arguments, gpu::Device& device, const Log& log) {
     bench::RunOptions options;
     options.repeats = arguments.repeats;
+    if (options.repeats == 0) {
+        options.repeats = arguments.isQuick ? kQuickRepeats : kRepeats;
+        options.shortRepeats = kRepeats;
+    }
     options.withError = arguments.withError;
     options.errorEvery = arguments.errorEvery;
     options.keepImages = !arguments.report.empty();
@@ -174,10 +179,8 @@ void requireGpu(const gpu::DeviceInfo& device) {
                                  device.name, others));
 }
 
-void runBench(const BenchArguments& given, const Log& log) {
-    if (!given.compare.empty()) return compareRuns(given);
-    BenchArguments arguments = given;
-    if (arguments.repeats == 0) arguments.repeats = arguments.isQuick ? kQuickRepeats : 20;
+void runBench(const BenchArguments& arguments, const Log& log) {
+    if (!arguments.compare.empty()) return compareRuns(arguments);
     // Wrong names before anything is opened.
     findSuites(arguments.suites);
     if (arguments.suites.empty())

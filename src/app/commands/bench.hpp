@@ -19,7 +19,7 @@ struct BenchArguments {
     std::string shadow;                ///< store of all lights; empty: the scenes' own
     std::string truth;                 ///< scene that errors are against; empty: each its own
     std::string size;                  ///< "WxH"; empty: the scenes' own
-    int repeats = 0;  ///< 0: 20, or few for quick suites
+    int repeats = 0;  ///< 0: 20, or fewer for quick suites
     std::uint32_t points = 2000;         ///< of --shadows
     std::uint32_t particles = 1'000'000;  ///< of --scenes simulate
     bool withError = true;
