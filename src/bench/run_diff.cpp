@@ -26,6 +26,11 @@ constexpr double kMostNoise = 2;
 /// Fewer rows say nothing about how far rows scatter.
 constexpr std::size_t kLeastRows = 20;
 
+/// So many methods of a scene say what its moment has done to all of them; and so many of a run's
+/// scenes may have had another moment.
+constexpr std::size_t kLeastRivals = 4;
+constexpr double kOtherMoments = 0.05;
+
 Json parse(const std::string& text, const std::string& name) {
     // What is nested deeper than results are is left out: copies would need the stack for it.
     const auto isShallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kMostDepth; };
@@ -48,11 +53,15 @@ std::string scalarText(const Json& value) {
     return value.is_structured() ? "?" : value.dump();
 }
 
+/// Rows that were measured in the same rounds.
+std::string sceneOf(const Json& row) {
+    const std::string suite = textAt(row, "suite");
+    return suite + (suite.empty() ? "" : ": ") + textAt(row, "scene", "?");
+}
+
 /// What is the same measurement in both runs.
 std::string keyOf(const Json& row) {
-    std::string key = textAt(row, "suite");
-    if (!key.empty()) key += ": ";
-    key += textAt(row, "scene", "?") + " by " + textAt(row, "method", "?");
+    std::string key = sceneOf(row) + " by " + textAt(row, "method", "?");
     if (const std::string shadow = textAt(row, "shadow", "none"); shadow != "none")
         key += " with " + shadow;
     if (const auto size = row.find("size");
@@ -119,10 +128,31 @@ double findScatter(const std::vector<Pair>& pairs, bool isScaled) {
     return kDeviationPerMedian * percentile(growths, 0.5);
 }
 
+/// What rows of one scene, measured in the same rounds, have in common: the logarithm of how many times
+/// as long half of them take at least.
+class Moments {
+  public:
+    explicit Moments(const std::vector<Pair>& pairs) {
+        for (const Pair& pair : pairs)
+            if (pair.hasTimes() && pair.hasYardsticks() && std::isfinite(pair.growth(true)))
+                mGrowths[sceneOf(*pair.after)].push_back(pair.growth(true));
+    }
+
+    double common(const Pair& pair) const {
+        const auto found = mGrowths.find(sceneOf(*pair.after));
+        if (found == mGrowths.end() || found->second.size() < kLeastRivals) return 0;
+        return percentile(found->second, 0.5);
+    }
+    std::size_t count() const { return mGrowths.size(); }
+
+  private:
+    std::map<std::string, std::vector<double>> mGrowths;
+};
+
 class Differ {
   public:
     Differ(double threshold, const std::vector<Pair>& pairs, RunDiff& diff)
-        : mThreshold(threshold), mDiff(diff) {
+        : mThreshold(threshold), mDiff(diff), mMoments(pairs) {
         diff.scatter = findScatter(pairs, false);
         diff.scaledScatter = findScatter(pairs, true);
     }
@@ -139,7 +169,25 @@ class Differ {
         compareFigures(pair.key, before, after);
     }
 
+    /// Once all rows are compared: disturbed scenes are few, those that a change of shared code meets
+    /// are not.
+    void finish() {
+        const double most = kOtherMoments * static_cast<double>(mMoments.count());
+        const bool areFew = static_cast<double>(mMomentary.size()) <= most;
+        for (const auto& [scene, changes] : mMomentary)
+            for (const Change& change : changes)
+                if (areFew)
+                    mDiff.notes.push_back(change.line + ", and so are its scene's other methods: another moment");
+                else
+                    change.list->push_back(change.line);
+    }
+
   private:
+    struct Change {
+        std::vector<std::string>* list;
+        std::string line;
+    };
+
     void compareTimes(const Pair& pair) {
         const bool isScaled = pair.hasYardsticks();
         const Timing a(*pair.before, isScaled), b(*pair.after, isScaled);
@@ -151,15 +199,29 @@ class Differ {
                         rawA.median);
         const double scatter = isScaled ? mDiff.scaledScatter : mDiff.scatter;
         if (isSlower(a, b, scatter) && isSlower(rawA, rawB, mDiff.scatter))
-            mDiff.regressions.push_back(line);
+            add(pair, {&mDiff.regressions, line});
         if (isSlower(b, a, scatter) && isSlower(rawB, rawA, mDiff.scatter))
-            mDiff.gains.push_back(line);
+            add(pair, {&mDiff.gains, line});
+    }
+
+    void add(const Pair& pair, Change change) {
+        const double common = mMoments.common(pair);
+        const bool isCommon = std::abs(common) > std::log(1 + mThreshold) &&
+                              std::abs(common) < std::log(kMostNoise) &&
+                              std::abs(pair.growth(true) - common) < std::log(noise(mDiff.scaledScatter));
+        if (isCommon)
+            mMomentary[sceneOf(*pair.after)].push_back(std::move(change));
+        else
+            change.list->push_back(std::move(change.line));
     }
 
     /// Of some hundred rows that scatter, some go as far as three deviations.
+    double noise(double scatter) const {
+        return std::max(1 + mThreshold, std::min(std::exp(3 * scatter), kMostNoise));
+    }
+
     bool isSlower(const Timing& before, const Timing& after, double scatter) const {
-        const double noise = std::min(std::exp(3 * scatter), kMostNoise);
-        return after.median > before.median * std::max(1 + mThreshold, noise) &&
+        return after.median > before.median * noise(scatter) &&
                after.lo > before.hi * (1 + 0.5 * mThreshold);
     }
 
@@ -189,6 +251,8 @@ class Differ {
 
     double mThreshold;
     RunDiff& mDiff;
+    Moments mMoments;
+    std::map<std::string, std::vector<Change>> mMomentary;  ///< by scene
 };
 
 /// Rows of all kinds by key; shadow rows take the shape of the others.
@@ -247,6 +311,7 @@ RunDiff diffRuns(const std::string& oldJson, const std::string& oldName,
     }
     Differ differ(threshold, pairs, diff);
     for (const Pair& pair : pairs) differ.compare(pair);
+    differ.finish();
     for (const auto& [key, row] : oldRows)
         if (!newRows.contains(key)) diff.notes.push_back(key + ": only in " + oldName);
     return diff;

@@ -22,7 +22,9 @@ struct RunDiff {
 /// in the same rounds, which takes out most of what else the machine did. A row is a regression if
 /// * its time has grown by more than the share `threshold` and by more than three times what rows
 ///   scatter (a factor of 2 at most), both as it is and by the yardstick, and the ranges p05..p95 of both runs do not overlap even
-///   when widened by half the threshold, or
+///   when widened by half the threshold; unless so have the times of half of its scene's methods, at
+///   least four, by less than a factor of 2, in not more than a twentieth of all scenes: these, which
+///   were measured within the same seconds, were disturbed, which is noted, or
 /// * its rmse or its bytes have grown by more than the threshold, or
 /// * it has failed, or has pixels that are not finite, where it had not.
 /// Throws an input Error for text that is not such a document; `oldName` and `newName` are for it.

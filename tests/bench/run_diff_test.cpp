@@ -93,6 +93,33 @@ TEST(RunDiff, HalfOfAllRowsSlower_IsNoScatter) {
     EXPECT_EQ(diffRuns(toJson(before), "old", toJson(after), "new", 0.25).regressions.size(), 20u);
 }
 
+/// Five methods on each of `scenes` scenes; all of the first `slow` scenes take `factor` times as long, and
+/// the first method of the first scene `first` times.
+RunDiff diffOfScenes(int scenes, int slow, double factor, double first) {
+    Results before, after;
+    for (int i = 0; i < scenes * 5; ++i) {
+        Row row = makeRow(10);
+        row.scene = "s" + std::to_string(i / 5);
+        row.method = "m" + std::to_string(i % 5);
+        before.frames.push_back({.row = row});
+        const double times = i == 0 ? first : i / 5 < slow ? factor : 1;
+        row.time = makeRow(10 * times).time;
+        after.frames.push_back({.row = row});
+    }
+    return diffRuns(toJson(before), "old", toJson(after), "new", 0.25);
+}
+
+TEST(RunDiff, AFewDisturbedScenes_AreNotes) {
+    const RunDiff one = diffOfScenes(40, 1, 1.6, 1.6);
+    EXPECT_TRUE(one.regressions.empty()) << formatDiff(one);
+    EXPECT_EQ(one.notes.size(), 5u);
+    EXPECT_EQ(diffOfScenes(40, 1, 1.6, 2.5).regressions.size(), 1u) << "slower than its scene";
+    EXPECT_EQ(diffOfScenes(40, 0, 1, 1.6).regressions.size(), 1u) << "alone";
+    EXPECT_EQ(diffOfScenes(40, 1, 2.5, 2.5).regressions.size(), 5u) << "too much for a moment";
+    EXPECT_EQ(diffOfScenes(40, 8, 1.6, 1.6).regressions.size(), 40u) << "too many scenes";
+    EXPECT_EQ(diffOfScenes(1, 1, 1.6, 1.6).regressions.size(), 5u) << "of one";
+}
+
 TEST(RunDiff, ErrorBytesAndFailures_AreRegressionsToo) {
     Row wrong = makeRow(10), large = makeRow(10), failed = makeRow(10), nan = makeRow(10);
     wrong.error->rmse = 2e-3;
