@@ -53,20 +53,28 @@ std::string scalarText(const Json& value) {
     return value.is_structured() ? "?" : value.dump();
 }
 
-/// Rows that were measured in the same rounds.
 std::string sceneOf(const Json& row) {
     const std::string suite = textAt(row, "suite");
     return suite + (suite.empty() ? "" : ": ") + textAt(row, "scene", "?");
 }
 
-/// What is the same measurement in both runs.
-std::string keyOf(const Json& row) {
-    std::string key = sceneOf(row) + " by " + textAt(row, "method", "?");
+/// With which shadows, and how large.
+std::string shapeOf(const Json& row) {
+    std::string shape;
     if (const std::string shadow = textAt(row, "shadow", "none"); shadow != "none")
-        key += " with " + shadow;
+        shape += " with " + shadow;
     if (const auto size = row.find("size");
         size != row.end() && size->is_array() && size->size() == 2)
-        key += fmt::format(" {}x{}", scalarText((*size)[0]), scalarText((*size)[1]));
+        shape += fmt::format(" {}x{}", scalarText((*size)[0]), scalarText((*size)[1]));
+    return shape;
+}
+
+/// Of rows that are measured in the same rounds.
+std::string momentOf(const Json& row) { return sceneOf(row) + shapeOf(row); }
+
+/// What is the same measurement in both runs.
+std::string keyOf(const Json& row) {
+    std::string key = sceneOf(row) + " by " + textAt(row, "method", "?") + shapeOf(row);
     if (const auto settings = row.find("settings");
         settings != row.end() && settings->is_object())
         for (const auto& [name, value] : settings->items())
@@ -135,11 +143,11 @@ class Moments {
     explicit Moments(const std::vector<Pair>& pairs) {
         for (const Pair& pair : pairs)
             if (pair.hasTimes() && pair.hasYardsticks() && std::isfinite(pair.growth(true)))
-                mGrowths[sceneOf(*pair.after)].push_back(pair.growth(true));
+                mGrowths[momentOf(*pair.after)].push_back(pair.growth(true));
     }
 
     double common(const Pair& pair) const {
-        const auto found = mGrowths.find(sceneOf(*pair.after));
+        const auto found = mGrowths.find(momentOf(*pair.after));
         if (found == mGrowths.end() || found->second.size() < kLeastRivals) return 0;
         return percentile(found->second, 0.5);
     }
@@ -210,7 +218,7 @@ class Differ {
                               std::abs(common) < std::log(kMostNoise) &&
                               std::abs(pair.growth(true) - common) < std::log(noise(mDiff.scaledScatter));
         if (isCommon)
-            mMomentary[sceneOf(*pair.after)].push_back(std::move(change));
+            mMomentary[momentOf(*pair.after)].push_back(std::move(change));
         else
             change.list->push_back(std::move(change.line));
     }
@@ -252,7 +260,7 @@ class Differ {
     double mThreshold;
     RunDiff& mDiff;
     Moments mMoments;
-    std::map<std::string, std::vector<Change>> mMomentary;  ///< by scene
+    std::map<std::string, std::vector<Change>> mMomentary;  ///< by momentOf()
 };
 
 /// Rows of all kinds by key; shadow rows take the shape of the others.

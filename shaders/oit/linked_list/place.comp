@@ -72,7 +72,7 @@ void placePixels(uint slot, uint media, uint surfaces, uint mediaRoom, uint surf
     }
 }
 
-// Where lists have no entries: they always have room.
+// Where lists have no entries. They always have room: a frame like this one has been measured.
 void placeRows(uint slot, uint firstBlock) {
     for (uint row = 0u; row < kTileSize; ++row) {
         uint blocks = rowBlocks(slot, row);
